@@ -1,0 +1,36 @@
+# Everything runs in .venv, which the first target makes.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+
+.PHONY: tour test test-heavy test-browser lint bench clean
+
+$(VENV)/.installed: pyproject.toml
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --upgrade "pip>=25.1"
+	$(BIN)/python -m pip install --quiet --editable ".[all]" --group test
+	touch $@
+
+tour: $(VENV)/.installed  ## the whole of it on the embedded shape; results in ./tour
+	$(BIN)/beltrami tour -o tour
+
+test: $(VENV)/.installed  ## lint, types, import rule and every unmarked test
+	$(BIN)/ruff check src tests benchmarks
+	$(BIN)/ruff format --check src tests benchmarks
+	$(BIN)/mypy
+	$(BIN)/python -m pytest -m "not heavy"
+
+test-heavy: $(VENV)/.installed  ## fuzzing at length, millions of vertices
+	$(BIN)/python -m pytest -m heavy
+
+test-browser: $(VENV)/.installed  ## the tour's index page in a real Chromium
+	$(BIN)/python -m pytest -m browser
+
+bench:  ## against the peers, in an environment of their own; writes BENCHMARKS.md
+	$(PYTHON) -m venv .venv-bench
+	.venv-bench/bin/python -m pip install --quiet --upgrade "pip>=25.1"
+	.venv-bench/bin/python -m pip install --quiet --editable ".[all]" --group bench
+	.venv-bench/bin/python -m benchmarks
+
+clean:
+	rm -rf $(VENV) .venv-bench tour dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

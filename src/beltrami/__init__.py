@@ -1,0 +1,94 @@
+"""Fourier analysis and linear processing of functions on triangle meshes.
+
+Everything is one pair of matrices: a stiffness L and a mass B, which ``laplacian`` makes of a
+mesh, a topology or a graph. Names are loaded when they are first used.
+
+Examples
+--------
+>>> import beltrami as bt
+>>> mesh = bt.shapes.icosphere(2)
+>>> smoother = bt.smooth_mesh(mesh, steps=5, keep="volume")
+>>> bt.laplacian(smoother)
+<Laplacian: 162 vertices, cotangent weights, (cot α + cot β)/2, voronoi mass,
+ positive semi-definite>
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from beltrami import errors as errors
+    from beltrami.diffusion.heat import heat as heat
+    from beltrami.diffusion.smooth_mesh import smooth_mesh as smooth_mesh
+    from beltrami.diffusion.smoothing import smooth as smooth
+    from beltrami.display.light import DirectionalLight as DirectionalLight
+    from beltrami.display.light import SpotLight as SpotLight
+    from beltrami.display.render import render as render
+    from beltrami.io.function import read_function as read_function
+    from beltrami.io.registry import read_mesh as read_mesh
+    from beltrami.io.registry import write_mesh as write_mesh
+    from beltrami.mesh import shapes as shapes
+    from beltrami.mesh.convert import as_mesh as as_mesh
+    from beltrami.mesh.diagnose import Diagnosis as Diagnosis
+    from beltrami.mesh.diagnose import diagnose as diagnose
+    from beltrami.mesh.mesh import Mesh as Mesh
+    from beltrami.mesh.repair import Repair as Repair
+    from beltrami.mesh.repair import repair as repair
+    from beltrami.mesh.topology import Topology as Topology
+    from beltrami.operators.areas import vertex_areas as vertex_areas
+    from beltrami.operators.gradient import face_divergence as face_divergence
+    from beltrami.operators.gradient import face_gradient as face_gradient
+    from beltrami.operators.laplacian import laplacian as laplacian
+    from beltrami.operators.pair import Laplacian as Laplacian
+    from beltrami.operators.weights import edge_weights as edge_weights
+    from beltrami.solvers.factor import Factor as Factor
+    from beltrami.solvers.factorize import factorize as factorize
+
+__version__ = "0.1.0"
+
+_HOME = {
+    "DirectionalLight": "display.light",
+    "Diagnosis": "mesh.diagnose",
+    "Factor": "solvers.factor",
+    "Laplacian": "operators.pair",
+    "Mesh": "mesh.mesh",
+    "Repair": "mesh.repair",
+    "SpotLight": "display.light",
+    "Topology": "mesh.topology",
+    "as_mesh": "mesh.convert",
+    "diagnose": "mesh.diagnose",
+    "edge_weights": "operators.weights",
+    "face_divergence": "operators.gradient",
+    "face_gradient": "operators.gradient",
+    "factorize": "solvers.factorize",
+    "heat": "diffusion.heat",
+    "laplacian": "operators.laplacian",
+    "read_function": "io.function",
+    "read_mesh": "io.registry",
+    "render": "display.render",
+    "repair": "mesh.repair",
+    "smooth": "diffusion.smoothing",
+    "smooth_mesh": "diffusion.smooth_mesh",
+    "vertex_areas": "operators.areas",
+    "write_mesh": "io.registry",
+}
+_MODULES = {"errors": "errors", "shapes": "mesh.shapes"}
+
+__all__ = sorted([*_HOME, *_MODULES])
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name when it is first used (PEP 562)."""
+    if name in _MODULES:
+        return importlib.import_module(f"beltrami.{_MODULES[name]}")
+    if name not in _HOME:
+        raise AttributeError(f"module 'beltrami' has no attribute {name!r}")
+    value = getattr(importlib.import_module(f"beltrami.{_HOME[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

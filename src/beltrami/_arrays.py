@@ -1,0 +1,102 @@
+"""Arrays at the door: conversion, checks, read-only views."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+from beltrami.errors import DimensionError, MeshError, NonFiniteError
+
+Floats: TypeAlias = NDArray[np.float64]
+Integers: TypeAlias = NDArray[np.int64]
+Booleans: TypeAlias = NDArray[np.bool_]
+
+
+def _can_change(array: NDArray[Any]) -> bool:
+    """Whether somebody else could still write into this memory."""
+    base: Any = array
+    while isinstance(base, np.ndarray):
+        if base.flags.writeable:
+            return True
+        base = base.base
+    return base is not None
+
+
+def read_only(array: NDArray[Any]) -> NDArray[Any]:
+    """Mark an array that we have just made as read-only, in place, and return it."""
+    array.flags.writeable = False
+    return array
+
+
+def frozen(array: ArrayLike, dtype: DTypeLike) -> NDArray[Any]:
+    """Return a read-only, C-ordered array of this type, copied only where somebody could write.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> mine = np.zeros(3)
+    >>> frozen(mine, float).flags.writeable, mine.flags.writeable
+    (False, True)
+    """
+    given = np.asarray(array)
+    result = np.ascontiguousarray(given, dtype=dtype).reshape(given.shape)
+    if np.shares_memory(result, given) and _can_change(given):
+        result = result.copy()
+    return read_only(result)
+
+
+def as_function(f: ArrayLike, n: int, what: str = "the function") -> Floats:
+    """Check a function on n vertices: shape (n,) or (n, c), every value finite.
+
+    Raises
+    ------
+    DimensionError
+        If it has not n rows, or more than two axes.
+    NonFiniteError
+        If a value is NaN or infinite; ``error.vertices`` names the rows.
+    """
+    values = np.ascontiguousarray(f, dtype=np.float64)
+    if values.ndim not in (1, 2) or len(values) != n:
+        raise DimensionError(
+            f"{what} has the shape {values.shape} where ({n},) or ({n}, c) is needed",
+            remedy="Give one row for each vertex.",
+        )
+    require_finite(values, what)
+    return values
+
+
+def require_finite(values: NDArray[Any], what: str) -> None:
+    """Raise NonFiniteError, with the rows, if a value is NaN or infinite."""
+    finite = np.isfinite(values)
+    if not finite.all():
+        rows = np.flatnonzero(~finite.reshape(len(values), -1).all(axis=1))
+        raise NonFiniteError(
+            f"{what} has values that are NaN or infinite",
+            vertices=rows,
+            remedy="Give finite values there, or drop these vertices with "
+            "repair(mesh, remove_non_finite=True).",
+        )
+
+
+def as_indices(indices: ArrayLike, n: int, what: str) -> Integers:
+    """Check a list of indices into n things, or a boolean mask of n values.
+
+    Raises
+    ------
+    MeshError
+        If an index is not an integer in 0..n-1; ``error.vertices`` lists them.
+    """
+    given = np.asarray(indices)
+    if given.dtype == np.bool_ and given.shape == (n,):
+        return np.flatnonzero(given).astype(np.int64)
+    if given.size == 0:
+        return np.zeros(0, np.int64)
+    if given.dtype.kind not in "iu":
+        raise MeshError(f"{what} must be integers or a mask of {n} truth values")
+    flat = given.astype(np.int64).ravel()
+    outside = flat[(flat < 0) | (flat >= n)]
+    if len(outside):
+        raise MeshError(f"{what} outside 0..{n - 1}", vertices=outside)
+    return flat

@@ -1,0 +1,208 @@
+"""What can go wrong, as classes: each error names the guilty ones and the remedy."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = [
+    "BeltramiError",
+    "ConvergenceError",
+    "DegenerateFaceError",
+    "DimensionError",
+    "EmptyMeshError",
+    "FileFormatError",
+    "MeshError",
+    "MissingExtraError",
+    "NegativeWeightError",
+    "NonFiniteError",
+    "NotClosedError",
+    "NotManifoldError",
+    "NotOrientableError",
+    "SingularMatrixError",
+    "StepTooLongError",
+    "UnknownNameError",
+    "UnreferencedVertexError",
+]
+
+_SHOWN = 5
+
+
+def _named(kind: str, indices: NDArray[Any]) -> str:
+    """Write the first few indices: ``vertices 3, 8, 9 and 20 more``."""
+    shown = ", ".join(str(i if np.ndim(i) == 0 else tuple(i)) for i in indices[:_SHOWN].tolist())
+    more = len(indices) - _SHOWN
+    return f"{kind} {shown}" + (f" and {more} more" if more > 0 else "")
+
+
+def _rebuild(cls: type[BeltramiError], args: tuple[Any, ...], state: dict[str, Any]) -> Any:
+    error = cls.__new__(cls, *args)
+    error.args = args
+    error.__dict__.update(state)
+    return error
+
+
+class BeltramiError(Exception):
+    """Every error that this library raises on purpose."""
+
+    def __reduce__(self) -> Any:  # keyword arguments do not survive the default pickling
+        return _rebuild, (type(self), self.args, self.__dict__)
+
+
+class MeshError(BeltramiError, ValueError):
+    """A mesh, or a function on it, is not what the operation needs.
+
+    Parameters
+    ----------
+    problem
+        What is wrong, without a final stop.
+    vertices, faces, edges
+        The guilty indices (edges as pairs of vertices).
+    remedy
+        What to do about it, as a sentence.
+    """
+
+    def __init__(
+        self,
+        problem: str,
+        *,
+        vertices: ArrayLike = (),
+        faces: ArrayLike = (),
+        edges: ArrayLike = (),
+        remedy: str = "",
+    ) -> None:
+        self.problem = problem
+        self.vertices = np.asarray(vertices, dtype=np.int64)
+        self.faces = np.asarray(faces, dtype=np.int64)
+        self.edges = np.asarray(edges, dtype=np.int64).reshape(-1, 2)
+        self.remedy = remedy
+        groups = (("vertices", self.vertices), ("faces", self.faces), ("edges", self.edges))
+        guilty = "; ".join(_named(kind, which) for kind, which in groups if len(which))
+        text = problem + (f" ({guilty})" if guilty else "")
+        super().__init__(f"{text}. {remedy}" if remedy else text)
+
+
+class EmptyMeshError(MeshError):
+    """The operation needs at least one face."""
+
+
+class DimensionError(MeshError):
+    """The vertices have the wrong number of coordinates, or a function the wrong length."""
+
+
+class NonFiniteError(MeshError):
+    """A coordinate or a value is NaN or infinite."""
+
+
+class UnreferencedVertexError(MeshError):
+    """Some vertices belong to no face."""
+
+
+class DegenerateFaceError(MeshError):
+    """Some faces have no area, or name a vertex twice."""
+
+
+class NotManifoldError(MeshError):
+    """An edge has more than two faces, or a vertex more than one fan of faces."""
+
+
+class NotOrientableError(MeshError):
+    """No choice of orientations of the faces is consistent."""
+
+
+class NotClosedError(MeshError):
+    """The operation needs a surface without boundary."""
+
+
+class NegativeWeightError(MeshError):
+    """The operation needs non-negative weights; ``edges`` lists those that are not."""
+
+
+class StepTooLongError(BeltramiError, ValueError):
+    """An explicit time step beyond the bound of stability; ``longest`` is the longest allowed."""
+
+    def __init__(self, step: float, longest: float) -> None:
+        self.step = step
+        self.longest = longest
+        super().__init__(
+            f"the explicit scheme is unstable with a step of {step:.6g}: the longest allowed is "
+            f"{longest:.6g}. Take more steps, or the implicit scheme, which has no such bound"
+        )
+
+
+class SingularMatrixError(BeltramiError, ValueError):
+    """A matrix to factorise is singular (to working precision)."""
+
+
+class ConvergenceError(BeltramiError, RuntimeError):
+    """An iteration stopped before it reached its tolerance."""
+
+
+class UnknownNameError(BeltramiError, ValueError):
+    """A name of a method or kind that does not exist; ``choices`` lists those that do."""
+
+    def __init__(self, what: str, name: object, choices: Iterable[str]) -> None:
+        self.name = name
+        self.choices = tuple(choices)
+        near = difflib.get_close_matches(str(name), self.choices, n=1)
+        hint = f" Did you mean {near[0]!r}?" if near else ""
+        listed = ", ".join(repr(choice) for choice in self.choices)
+        super().__init__(f"unknown {what} {name!r}: choose one of {listed}.{hint}")
+
+
+class FileFormatError(BeltramiError, ValueError):
+    """A file is not what its format promises.
+
+    Parameters
+    ----------
+    path
+        The file.
+    problem
+        What was found, and what was expected.
+    line, byte
+        Where: the line of a text file (from 1), the byte of a binary one (from 0).
+    """
+
+    def __init__(
+        self, path: object, problem: str, *, line: int | None = None, byte: int | None = None
+    ) -> None:
+        self.path = str(path)
+        self.problem = problem
+        self.line = line
+        self.byte = byte
+        place = f", line {line}" if line is not None else ""
+        place += f", byte {byte}" if byte is not None else ""
+        super().__init__(f"{self.path}{place}: {problem}")
+
+
+class MissingExtraError(BeltramiError, ImportError):
+    """An optional package is not installed; ``extra`` brings it."""
+
+    def __init__(self, package: str, extra: str, purpose: str) -> None:
+        self.package = package
+        self.extra = extra
+        super().__init__(
+            f"{purpose} needs the package {package!r}: pip install 'beltrami[{extra}]'"
+        )
+
+
+def check_name(what: str, name: object, choices: Sequence[str]) -> str:
+    """Return ``name`` if it is one of ``choices``.
+
+    Raises
+    ------
+    UnknownNameError
+        If it is not; the message lists the choices and the nearest one.
+
+    Examples
+    --------
+    >>> check_name("weights", "distance", ("combinatorial", "distance"))
+    'distance'
+    """
+    if isinstance(name, str) and name in choices:
+        return name
+    raise UnknownNameError(what, name, choices)

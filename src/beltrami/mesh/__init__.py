@@ -1,0 +1,1 @@
+"""Meshes: the topology (V, E, F), its geometric realisation, defects and shapes (chapter 3.1)."""

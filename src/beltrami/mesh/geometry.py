@@ -1,0 +1,179 @@
+"""Geometry of the faces: areas, normals, angles, lengths (l. 62-107 of the chapter)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from beltrami._arrays import Floats, Integers
+from beltrami._jit import kernel
+from beltrami.errors import check_name
+
+NORMAL_WEIGHTS = ("uniform", "area", "angle")
+FLAT = 1e-12  # a face is degenerate if its area is at most this times its longest edge squared
+
+
+def in_space(vertices: Floats, faces: Integers) -> tuple[Floats, Integers]:
+    """Return positions in R³, and faces into them, with the same lengths.
+
+    Planar meshes get z = 0. In more than three dimensions each face is laid into a plane of its
+    own: the positions are then 3m corners that no two faces share.
+    """
+    n, d = vertices.shape
+    if d == 3:
+        return vertices, faces
+    if d == 2:
+        return np.concatenate([vertices, np.zeros((n, 1))], axis=1), faces
+    corners = vertices[faces]
+    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    length = np.linalg.norm(u, axis=1)
+    along = u / np.where(length > 0, length, 1)[:, None]
+    x = (v * along).sum(axis=1)
+    flat = np.zeros((len(faces), 3, 3))
+    flat[:, 1, 0] = length
+    flat[:, 2, 0] = x
+    flat[:, 2, 1] = np.linalg.norm(v - x[:, None] * along, axis=1)
+    return flat.reshape(-1, 3), np.arange(3 * len(faces)).reshape(-1, 3)
+
+
+def face_vectors(vertices: Floats, faces: Integers) -> Floats:
+    """Return (x_j - x_i) ∧ (x_k - x_i) of each face: twice its area along its normal."""
+    return np.asarray(_face_vectors(*in_space(vertices, faces)))
+
+
+def face_areas(vertices: Floats, faces: Integers) -> Floats:
+    """Return the area of each face, in any dimension.
+
+    Examples
+    --------
+    >>> face_areas(np.array([[0.0, 0], [2, 0], [0, 1]]), np.array([[0, 1, 2]])).tolist()
+    [1.0]
+    """
+    vectors = face_vectors(vertices, faces)
+    return np.sqrt(np.einsum("fc,fc->f", vectors, vectors)) / 2
+
+
+def unit(vectors: Floats) -> Floats:
+    """Divide each row by its length; a zero row stays zero."""
+    scale = np.abs(vectors).max(axis=1, initial=0.0)
+    scaled = vectors / np.where(scale > 0, scale, 1)[:, None]  # no underflow in the squares
+    length = np.sqrt(np.einsum("fc,fc->f", scaled, scaled))
+    return scaled / np.where(length > 0, length, 1)[:, None]
+
+
+def corner_angles(vertices: Floats, faces: Integers) -> Floats:
+    """Return the (m, 3) angles at the corners, in radians: exact also for needles.
+
+    Examples
+    --------
+    >>> right = corner_angles(np.array([[0.0, 0], [1, 0], [0, 1]]), np.array([[0, 1, 2]]))
+    >>> np.degrees(right).round(9).tolist()
+    [[90.0, 45.0, 45.0]]
+    """
+    return np.asarray(_corner_angles(*in_space(vertices, faces)))
+
+
+def vertex_normals(vertices: Floats, faces: Integers, weights: str) -> Floats:
+    """Return the (n, 3) unit normals at the vertices: a weighted mean of those of the faces.
+
+    ``"uniform"`` is the rule of the chapter (l. 105), ``"area"`` weighs by the area of each face
+    and ``"angle"`` by its angle at the vertex, which alone does not depend on how a flat piece
+    is cut into faces (E10). Where the mean vanishes, the normal is zero.
+
+    Raises
+    ------
+    UnknownNameError
+        If ``weights`` is none of the three.
+    """
+    check_name("weights of normals", weights, NORMAL_WEIGHTS)
+    positions, corners = in_space(vertices, faces)
+    vectors = np.asarray(_face_vectors(positions, corners))
+    if weights != "area":
+        vectors = unit(vectors)
+    if weights == "angle":
+        shares = np.asarray(_corner_angles(positions, corners))
+    else:
+        shares = np.ones(faces.shape)
+    return unit(np.asarray(_gather(vectors, shares, faces, len(vertices))))
+
+
+def degenerate_faces(vertices: Floats, faces: Integers) -> Integers:
+    """Return the faces that name a vertex twice, or whose area vanishes beside their edges.
+
+    The bound is area <= 1e-12 (longest edge)², so it does not depend on the unit of length.
+    Faces with a coordinate that is not finite are not among them.
+    """
+    return np.flatnonzero(_degenerate(*in_space(vertices, faces), faces)).astype(np.int64)
+
+
+@kernel
+def _face_vectors(x: Any, faces: Any) -> Any:
+    """Cross product of two sides of each face."""
+    out = np.empty((faces.shape[0], 3))
+    for f in range(faces.shape[0]):
+        i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
+        a, b, c = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1], x[j, 2] - x[i, 2]
+        d, e, g = x[k, 0] - x[i, 0], x[k, 1] - x[i, 1], x[k, 2] - x[i, 2]
+        out[f, 0] = b * g - c * e
+        out[f, 1] = c * d - a * g
+        out[f, 2] = a * e - b * d
+    return out
+
+
+@kernel
+def _corner_angles(x: Any, faces: Any) -> Any:
+    """Angle = atan2(|u ∧ v|, <u, v>), precise near 0 and π as the arc cosine is not."""
+    out = np.empty((faces.shape[0], 3))
+    for f in range(faces.shape[0]):
+        for c in range(3):
+            i, j, k = faces[f, c], faces[f, (c + 1) % 3], faces[f, (c + 2) % 3]
+            a, b, e = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1], x[j, 2] - x[i, 2]
+            p, q, r = x[k, 0] - x[i, 0], x[k, 1] - x[i, 1], x[k, 2] - x[i, 2]
+            cross = np.sqrt((b * r - e * q) ** 2 + (e * p - a * r) ** 2 + (a * q - b * p) ** 2)
+            out[f, c] = np.arctan2(cross, a * p + b * q + e * r)
+    return out
+
+
+@kernel
+def _gather(vectors: Any, shares: Any, faces: Any, n: int) -> Any:
+    """Sum share times vector of each face at its three vertices."""
+    out = np.zeros((n, 3))
+    for f in range(faces.shape[0]):
+        for c in range(3):
+            for x in range(3):
+                out[faces[f, c], x] += shares[f, c] * vectors[f, x]
+    return out
+
+
+@kernel
+def _degenerate(x: Any, corners: Any, faces: Any) -> Any:
+    """Whether area <= FLAT * longest², on sides scaled so that nothing underflows."""
+    out = np.zeros(faces.shape[0], np.bool_)
+    for f in range(faces.shape[0]):
+        i, j, k = corners[f, 0], corners[f, 1], corners[f, 2]
+        scale = 0.0
+        for c in range(3):
+            scale = max(scale, abs(x[j, c] - x[i, c]), abs(x[k, c] - x[i, c]))
+        twice = faces[f, 0] == faces[f, 1] or faces[f, 1] == faces[f, 2]
+        if twice or faces[f, 0] == faces[f, 2] or scale == 0.0:
+            out[f] = True
+            continue
+        a, b, e = (
+            (x[j, 0] - x[i, 0]) / scale,
+            (x[j, 1] - x[i, 1]) / scale,
+            (x[j, 2] - x[i, 2]) / scale,
+        )
+        p, q, r = (
+            (x[k, 0] - x[i, 0]) / scale,
+            (x[k, 1] - x[i, 1]) / scale,
+            (x[k, 2] - x[i, 2]) / scale,
+        )
+        cross = np.sqrt((b * r - e * q) ** 2 + (e * p - a * r) ** 2 + (a * q - b * p) ** 2)
+        longest = max(
+            a * a + b * b + e * e,
+            p * p + q * q + r * r,
+            (a - p) ** 2 + (b - q) ** 2 + (e - r) ** 2,
+        )
+        out[f] = cross / 2 <= 1e-12 * longest  # FLAT; false where something is NaN
+    return out

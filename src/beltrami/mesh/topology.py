@@ -1,0 +1,292 @@
+"""Topology: the faces alone, and everything that follows from them (section 3.1.2)."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import csr_array
+
+from beltrami._arrays import Booleans, Integers, frozen, read_only
+from beltrami.errors import DimensionError, MeshError, NotManifoldError, NotOrientableError
+from beltrami.mesh.connectivity import component_labels, parity_colouring
+from beltrami.mesh.fans import Fans, group_corners
+from beltrami.mesh.half_edges import BOUNDARY, HalfEdges, pair_sides
+from beltrami.mesh.loops import order_boundary
+from beltrami.mesh.rings import adjacency_matrix, incident_faces, vertex_ring
+
+
+class Topology:
+    """M = (V, E, F): which vertices make a face, and no positions.
+
+    Faces that name a vertex twice are kept, but have no sides: they make no edge, no fan and no
+    component. What is derived is computed when first asked for, once.
+
+    Parameters
+    ----------
+    faces
+        (m, 3) integers, 0-based, counter-clockwise seen from outside.
+    n_vertices
+        Number of vertices n; the largest index plus one if not given.
+
+    Raises
+    ------
+    DimensionError
+        If ``faces`` is not an (m, 3) array of integers.
+    MeshError
+        If a face names a vertex outside 0..n-1; ``error.faces`` lists these faces.
+
+    Examples
+    --------
+    >>> tetrahedron = Topology([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    >>> tetrahedron.n_edges, tetrahedron.euler_characteristic, tetrahedron.is_closed
+    (6, 2, True)
+    """
+
+    faces: Integers
+    n_vertices: int
+
+    def __init__(self, faces: ArrayLike, n_vertices: int | None = None) -> None:
+        given = np.asarray(faces)
+        if given.size == 0:
+            given = np.zeros((0, 3), np.int64)
+        if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "iu":
+            raise DimensionError(
+                f"faces are an array of shape {given.shape} and type {given.dtype} where (m, 3) "
+                "integers are needed",
+                remedy="Triangulate polygons; read_mesh does it for files.",
+            )
+        array = frozen(given, np.int64)
+        n = int(array.max(initial=-1)) + 1 if n_vertices is None else int(n_vertices)
+        if len(array) and (array.min() < 0 or array.max() >= n):
+            outside = np.flatnonzero(((array < 0) | (array >= n)).any(axis=1))
+            raise MeshError(
+                f"faces name vertices outside 0..{n - 1}",
+                faces=outside,
+                remedy="Indices start at 0 and end at the number of vertices less one.",
+            )
+        self.__dict__.update(faces=array, n_vertices=n)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a Topology is frozen: {name!r} cannot be set")
+
+    def __reduce__(self) -> Any:  # what is derived is not stored
+        return Topology, (self.faces, self.n_vertices)
+
+    def __repr__(self) -> str:
+        return f"<Topology: {self.n_vertices} vertices, {self.n_faces} faces>"
+
+    @property
+    def n_faces(self) -> int:
+        """Number of faces m."""
+        return len(self.faces)
+
+    # ---------------------------------------------------------------- edges
+
+    @cached_property
+    def half_edges(self) -> HalfEdges:
+        """The sides of the faces paired into edges: the one pass that all else rests on."""
+        return pair_sides(self.faces, self.n_vertices)
+
+    @property
+    def edges(self) -> Integers:
+        """(p, 2) int: each edge once, i < j, in lexicographic order (E38)."""
+        return self.half_edges.edges
+
+    @property
+    def n_edges(self) -> int:
+        """Number of edges p, each counted once."""
+        return len(self.edges)
+
+    @property
+    def face_edges(self) -> NDArray[np.int32]:
+        """(m, 3) int: the edge opposite each corner; -1 in a face that names a vertex twice."""
+        return self.half_edges.face_edges
+
+    @property
+    def twins(self) -> NDArray[np.int32]:
+        """(m, 3) int: the half-edge 3 f + c across each side; -1 boundary, -2 not manifold."""
+        return self.half_edges.twins
+
+    @cached_property
+    def edge_faces(self) -> csr_array:
+        """(p, m) sparse: the faces of each edge."""
+        sides = self.face_edges.ravel()
+        kept = np.flatnonzero(sides >= 0)
+        entries = (np.ones(len(kept)), (sides[kept], kept // 3))
+        return csr_array(entries, shape=(self.n_edges, self.n_faces))
+
+    @cached_property
+    def boundary_edges(self) -> Integers:
+        """(b, 2) int: the edges with one face."""
+        return read_only(self.edges[self.half_edges.edge_face_count == 1])
+
+    @cached_property
+    def non_manifold_edges(self) -> Integers:
+        """(q, 2) int: the edges with more than two faces."""
+        return read_only(self.edges[self.half_edges.edge_face_count > 2])
+
+    # ---------------------------------------------------------------- rings
+
+    @cached_property
+    def adjacency(self) -> csr_array:
+        """(n, n) sparse: the symmetric matrix A with 1 where (i, j) is an edge."""
+        return adjacency_matrix(self.edges, self.n_vertices)
+
+    @cached_property
+    def vertex_faces(self) -> csr_array:
+        """(n, m) sparse: row i marks the faces F_i around vertex i."""
+        return incident_faces(self.faces, self.n_vertices)
+
+    def ring(self, i: int, s: int = 1, kind: str = "exact") -> Integers:
+        """Vertices of the s-ring of i, sorted: ``"exact"`` distance s, ``"ball"`` or ``"walk"``.
+
+        The three readings of equation (3.2); see erratum E6.
+        """
+        return vertex_ring(self.adjacency, self._checked(i), s, kind)
+
+    def face_ring(self, i: int) -> Integers:
+        """Faces around vertex i, ascending (definition 4 as it is meant, E7)."""
+        v = self._checked(i)
+        around = self.vertex_faces
+        return np.asarray(around.indices[around.indptr[v] : around.indptr[v + 1]], dtype=np.int64)
+
+    def _checked(self, i: int) -> int:
+        if not 0 <= i < self.n_vertices:
+            raise MeshError(f"there is no vertex {i}: they are 0..{self.n_vertices - 1}")
+        return int(i)
+
+    @cached_property
+    def referenced(self) -> Booleans:
+        """(n,) bool: whether a face names the vertex."""
+        named = np.zeros(self.n_vertices, dtype=np.bool_)
+        named[self.faces.ravel()] = True
+        return read_only(named)
+
+    # ---------------------------------------------------------------- manifold and orientation
+
+    @cached_property
+    def fans(self) -> Fans:
+        """The corners grouped into fans: the link test."""
+        return group_corners(self.faces, self.twins, self.n_vertices)
+
+    @cached_property
+    def non_manifold_vertices(self) -> Integers:
+        """The vertices whose link is neither one cycle nor one path."""
+        bad = self.fans.of_vertex > 1
+        bad[self.non_manifold_edges.ravel()] = True
+        return read_only(np.flatnonzero(bad))
+
+    @property
+    def is_edge_manifold(self) -> bool:
+        """Whether no edge has more than two faces."""
+        return not len(self.non_manifold_edges)
+
+    @property
+    def is_manifold(self) -> bool:
+        """Whether each link is one cycle (inside) or one path (boundary): the test of E9."""
+        return not len(self.non_manifold_vertices)
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether there are faces, and no edge has fewer than two of them."""
+        return bool(self.n_edges) and not len(self.boundary_edges)
+
+    @property
+    def is_oriented(self) -> bool:
+        """Whether neighbouring faces run through their common side in opposite directions."""
+        return self.half_edges.disoriented == 0
+
+    @cached_property
+    def orientation(self) -> Booleans | None:
+        """(m,) bool: the faces to turn for a consistent orientation; None if there is none.
+
+        The first face of each component is kept as it is.
+        """
+        pairs, differ = self._face_pairs
+        return parity_colouring(pairs, differ, self.n_faces)
+
+    @property
+    def is_orientable(self) -> bool:
+        """Whether the faces can be oriented consistently (across edges of two faces)."""
+        return self.is_oriented or self.orientation is not None
+
+    @cached_property
+    def inconsistent_edges(self) -> Integers:
+        """(q, 2) int: the edges that their two faces run through in the same direction."""
+        side = np.flatnonzero(self.twins.ravel() > np.arange(3 * self.n_faces))
+        return read_only(self.edges[self.face_edges.ravel()[side][self._face_pairs[1]]])
+
+    @cached_property
+    def _face_pairs(self) -> tuple[Integers, Booleans]:
+        """Pairs of faces that share a side, and whether they disagree on its direction."""
+        twins = self.twins.ravel()
+        side = np.flatnonzero(twins > np.arange(len(twins)))
+        other = twins[side].astype(np.int64)
+        start = self.faces[side // 3, (side + 1) % 3]
+        same = self.faces[other // 3, (other + 1) % 3] == start
+        return np.stack([side // 3, other // 3], axis=1), same
+
+    # ---------------------------------------------------------------- global shape
+
+    @cached_property
+    def boundary_loops(self) -> tuple[Integers, ...]:
+        """The vertices of each boundary loop in order, the longest first.
+
+        Raises NotManifoldError where the boundary runs into an edge of more than two faces.
+        """
+        return order_boundary(self.faces, self.twins, self.fans.root)
+
+    def components(self, through: str = "vertices") -> Integers:
+        """Label of the component of each face, through common vertices or common ``"edges"``."""
+        if through == "edges":
+            return component_labels(self._face_pairs[0], self.n_faces)
+        if not self.n_faces:
+            return np.zeros(0, np.int64)
+        sides = np.concatenate([self.faces[:, :2], self.faces[:, 1:]])
+        of_vertex = component_labels(sides, self.n_vertices)[self.faces[:, 0]]
+        _, first, labels = np.unique(of_vertex, return_index=True, return_inverse=True)
+        return np.argsort(np.argsort(first))[labels.ravel()].astype(np.int64)
+
+    @property
+    def n_components(self) -> int:
+        """Number of components, through common vertices."""
+        return int(self.components().max(initial=-1)) + 1
+
+    @property
+    def euler_characteristic(self) -> int:
+        """V - E + F over the referenced vertices and the faces that have sides."""
+        return (
+            int(np.count_nonzero(self.referenced))
+            - self.n_edges
+            + int(np.count_nonzero(self.face_edges[:, 0] >= 0))
+        )
+
+    @property
+    def genus(self) -> int:
+        """Sum over the components of the number of handles: (2 c - loops - χ) / 2.
+
+        Raises NotManifoldError or NotOrientableError where it has no meaning.
+        """
+        if not self.is_manifold:
+            raise NotManifoldError(
+                "the genus of a mesh that is not a manifold is not defined",
+                vertices=self.non_manifold_vertices,
+                edges=self.non_manifold_edges,
+                remedy="See repair(mesh, split_non_manifold=True).",
+            )
+        if not self.is_orientable:
+            raise NotOrientableError("the surface is not orientable, so it has no genus")
+        loops = len(self.boundary_loops)
+        return (2 * self.n_components - loops - self.euler_characteristic) // 2
+
+    @cached_property
+    def is_bipartite(self) -> bool:
+        """Whether the graph (V, E) has a colouring with two colours: never, with a face (E63)."""
+        differ = np.ones(self.n_edges, np.bool_)
+        return parity_colouring(self.edges, differ, self.n_vertices) is not None
+
+
+__all__ = ["BOUNDARY", "Topology"]

@@ -1,0 +1,122 @@
+"""Proven bounds on the spectrum of a pair (L, B), from its small parts (theorem 9, E62)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from beltrami._arrays import Floats, Integers
+from beltrami._jit import kernel
+from beltrami.errors import DimensionError
+from beltrami.mesh.geometry import in_space
+from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.topology import Topology
+from beltrami.operators.areas import AREA_KINDS
+from beltrami.operators.triangle import measure, shares
+
+
+def largest_face_eigenvalue(side_weights: Floats, corner_masses: Floats) -> float:
+    r"""Return the largest eigenvalue over the pairs (L_f, B_f) of the faces.
+
+    L and B are sums over the faces, so :math:`L_f \le \lambda B_f` in each of them gives
+    :math:`L \le \lambda B`. A pair has the eigenvalue 0 (constants) and the two roots of
+    :math:`\lambda^2 - t\lambda + s` with :math:`t = \sum_i L_{ii} / b_i` and
+    :math:`s = (w_i w_j + w_j w_k + w_k w_i)(b_i + b_j + b_k) / (b_i b_j b_k)`.
+
+    Parameters
+    ----------
+    side_weights
+        (m, 3) the part of the weight of each side (opposite each corner) that a face brings.
+    corner_masses
+        (m, 3) the part of the mass of each corner that a face brings; positive.
+
+    Examples
+    --------
+    >>> equilateral = np.full((1, 3), 0.5)  # combinatorial weights, shared by two faces
+    >>> largest_face_eigenvalue(equilateral, 2 * equilateral)
+    1.5
+    """
+    return float(_largest_root(side_weights, corner_masses))
+
+
+def side_weights(domain: Mesh | Topology, edge_weight: Floats, kind: str) -> Floats:
+    """Split the weights of the edges among their faces: cotangents as they come, others evenly."""
+    if kind == "cotangent" and isinstance(domain, Mesh):
+        return np.asarray(_half_cotangents(*in_space(domain.vertices, domain.faces)))
+    topology = domain.topology if isinstance(domain, Mesh) else domain
+    per_face = edge_weight / topology.half_edges.edge_face_count
+    return np.asarray(per_face[topology.face_edges])
+
+
+def corner_masses(domain: Mesh | Topology, sides: Floats, kind: str) -> Floats:
+    """Split the masses of the vertices among their faces: as they come, unit masses evenly."""
+    topology = domain.topology if isinstance(domain, Mesh) else domain
+    if kind == "degree":
+        return np.stack(
+            [sides[:, 1] + sides[:, 2], sides[:, 2] + sides[:, 0], sides[:, 0] + sides[:, 1]],
+            axis=1,
+        )
+    if kind == "unit":
+        around = np.bincount(topology.faces.ravel(), minlength=topology.n_vertices)
+        return np.asarray(1 / around[topology.faces])
+    if not isinstance(domain, Mesh):
+        raise DimensionError(f"the {kind} mass needs the positions of the vertices")
+    if kind == "consistent":  # (A/12)⁻¹ L_f has the eigenvalues of the pair, because L_f 1 = 0
+        return np.repeat(domain.face_areas[:, None] / 12, 3, axis=1)
+    positions, corners = in_space(domain.vertices, domain.faces)
+    return np.asarray(_corner_areas(positions, corners, AREA_KINDS[kind]))
+
+
+def largest_edge_eigenvalue(
+    edges: Integers, edge_weight: Floats, degrees: Floats, masses: Floats
+) -> float:
+    """Bound the spectrum of a graph without faces, for a diagonal mass.
+
+    With non-negative weights each edge takes the part w_ij / d_i of the mass of its ends, and
+    its pair has the eigenvalue d_i / b_i + d_j / b_j: 2 for the degree mass (theorem 9).
+    With negative ones, the disks of Gershgorin: (L_ii + Σ|w_ij|) / b_i.
+    """
+    if not len(edges):
+        return 0.0
+    if (edge_weight >= 0).all():
+        ratio = degrees / masses
+        used = edges[edge_weight > 0]
+        return float(ratio[used].sum(axis=1).max(initial=0.0))
+    ends = edges.ravel()
+    reach = np.bincount(ends, np.repeat(np.abs(edge_weight), 2), len(masses))
+    return float(((degrees + reach) / masses).max())
+
+
+@kernel
+def _largest_root(weights: Any, masses: Any) -> float:
+    """Maximum over the faces of the larger root."""
+    largest = 0.0
+    for f in range(weights.shape[0]):
+        u, v, w = weights[f, 0], weights[f, 1], weights[f, 2]
+        a, b, c = masses[f, 0], masses[f, 1], masses[f, 2]
+        t = (v + w) / a + (w + u) / b + (u + v) / c
+        s = (u * v + v * w + w * u) * ((a + b + c) / a / b / c)
+        largest = max(largest, (t + max(t * t - 4 * s, 0.0) ** 0.5) / 2)
+    return largest
+
+
+@kernel
+def _half_cotangents(x: Any, corners: Any) -> Any:
+    """Half the cotangent at each corner."""
+    out = np.empty(corners.shape)
+    for f in range(corners.shape[0]):
+        at_i, at_j, at_k, double = measure(x, corners[f, 0], corners[f, 1], corners[f, 2])
+        half = 0.5 / double
+        out[f, 0], out[f, 1], out[f, 2] = at_i * half, at_j * half, at_k * half
+    return out
+
+
+@kernel
+def _corner_areas(x: Any, corners: Any, kind: int) -> Any:
+    """Split the area of each face among its corners."""
+    out = np.empty(corners.shape)
+    for f in range(corners.shape[0]):
+        at_i, at_j, at_k, double = measure(x, corners[f, 0], corners[f, 1], corners[f, 2])
+        out[f, 0], out[f, 1], out[f, 2] = shares(at_i, at_j, at_k, double, kind)
+    return out

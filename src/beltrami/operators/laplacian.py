@@ -1,0 +1,127 @@
+"""laplacian: from a mesh, a topology or a graph to the pair (L, B)."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+from scipy.sparse import csr_array, issparse, triu
+
+from beltrami._arrays import Floats, Integers, read_only
+from beltrami.errors import DimensionError, MeshError, check_name
+from beltrami.mesh.edge_matrix import edge_sums, symmetric_matrix
+from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.topology import Topology
+from beltrami.operators.areas import consistent_mass, diagonal_matrix, vertex_areas
+from beltrami.operators.pair import MASSES, Laplacian
+from beltrami.operators.soundness import refuse_unreferenced
+from beltrami.operators.weights import WEIGHTS, weigh_edges
+
+Domain: TypeAlias = "Mesh | Topology | Any"  # Any: a symmetric sparse matrix of weights
+
+
+def laplacian(domain: Domain, weights: str | None = None, mass: str | None = None) -> Laplacian:
+    r"""Make the pair (L, B) of a mesh, of a topology, or of a graph.
+
+    Parameters
+    ----------
+    domain
+        A Mesh; a Topology (combinatorial weights); or a symmetric sparse matrix of weights.
+    weights
+        ``"cotangent"`` (default on a Mesh), ``"combinatorial"`` (default elsewhere) or
+        ``"distance"``: see ``edge_weights``.
+    mass
+        ``"voronoi"`` (default for cotangent weights), ``"barycentric"``, ``"consistent"`` (full
+        finite elements), ``"degree"`` (default otherwise: B = D) or ``"unit"``. Those of areas
+        add to the area of the surface.
+
+    Raises
+    ------
+    UnknownNameError
+        If a name is misspelt; the error lists the right ones.
+    EmptyMeshError, NonFiniteError, DegenerateFaceError, UnreferencedVertexError
+        If the mesh is not sound: the error names the vertices or faces, and the repair.
+    MeshError
+        If a matrix of weights is not square, symmetric and finite, or has a diagonal.
+
+    Notes
+    -----
+    Non-manifold meshes are accepted: an edge sums the cotangents of all its faces.
+    Cost: O(n + m); the topology is paired once and shared by ``with_vertices``.
+
+    Examples
+    --------
+    >>> mesh = Mesh([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]])
+    >>> pair = laplacian(mesh)
+    >>> pair
+    <Laplacian: 4 vertices, cotangent weights, (cot α + cot β)/2, voronoi mass,
+     positive semi-definite>
+    >>> round(pair.dirichlet_energy(mesh.vertices[:, 0]), 12), pair.masses.sum()
+    (1.0, np.float64(1.0))
+    """
+    if issparse(domain):
+        matrix: Any = domain
+        return _of_graph(csr_array(matrix), weights, mass)
+    if not isinstance(domain, Mesh | Topology):
+        raise DimensionError(
+            f"cannot make a Laplacian of an object of type {type(domain).__name__}",
+            remedy="Give a Mesh (see as_mesh), a Topology or a symmetric sparse matrix.",
+        )
+    default = "cotangent" if isinstance(domain, Mesh) else "combinatorial"
+    weight_kind = check_name("weights", default if weights is None else weights, WEIGHTS)
+    natural = "voronoi" if weight_kind == "cotangent" else "degree"
+    mass_kind = check_name("mass", natural if mass is None else mass, MASSES)
+    topology = domain.topology if isinstance(domain, Mesh) else domain
+    edge_weight = read_only(weigh_edges(domain, weight_kind))
+    stiffness = _stiffness(topology.edges, edge_weight, topology.n_vertices)
+    if (np.diff(stiffness.indptr) == 1).any():  # a row that holds its diagonal alone
+        refuse_unreferenced(topology)
+    masses = _mass_matrix(domain, stiffness, mass_kind)
+    return Laplacian(stiffness, masses, topology.edges, edge_weight, weight_kind, mass_kind, domain)
+
+
+def _stiffness(edges: Integers, edge_weight: Floats, n: int) -> csr_array:
+    """L = D - W, with the degrees summed edge by edge so that L1 = 0 to rounding."""
+    return symmetric_matrix(edges, -edge_weight, n, edge_sums(edges, edge_weight, n))
+
+
+def _mass_matrix(domain: Mesh | Topology, stiffness: csr_array, kind: str) -> csr_array:
+    if kind == "degree":
+        return diagonal_matrix(stiffness.diagonal())
+    if kind == "unit":
+        return diagonal_matrix(np.ones(stiffness.shape[0]))
+    if not isinstance(domain, Mesh):
+        raise DimensionError(f"the {kind} mass needs the positions of the vertices: give a Mesh")
+    return (
+        consistent_mass(domain)
+        if kind == "consistent"
+        else diagonal_matrix(vertex_areas(domain, kind))
+    )
+
+
+def _of_graph(matrix: csr_array, weights: str | None, mass: str | None) -> Laplacian:
+    """Make the pair of a graph given by its symmetric weights."""
+    n = matrix.shape[0]
+    if matrix.shape != (n, n) or not np.isfinite(matrix.data).all():
+        raise MeshError(f"a matrix of weights is square and finite, and this is {matrix.shape}")
+    if abs(matrix - matrix.T).max() > 1e-12 * abs(matrix).max() or matrix.diagonal().any():
+        raise MeshError("a matrix of weights is symmetric, with a zero diagonal")
+    if weights not in (None, "combinatorial"):
+        raise DimensionError(f"{weights} weights need a Mesh: a graph brings its own weights")
+    upper = triu(matrix, 1).tocsr()
+    upper.sum_duplicates()
+    upper.sort_indices()
+    rows = np.repeat(np.arange(n), np.diff(upper.indptr))
+    edges = read_only(np.stack([rows, upper.indices.astype(np.int64)], axis=1))
+    edge_weight = read_only(np.ones(len(edges)) if weights else upper.data.astype(np.float64))
+    stiffness = _stiffness(edges, edge_weight, n)
+    kind = check_name("mass of a graph", "degree" if mass is None else mass, ("degree", "unit"))
+    masses = stiffness.diagonal() if kind == "degree" else np.ones(n)
+    if not (masses > 0).all():
+        raise MeshError(
+            "vertices have no positive degree, so D cannot be inverted",
+            vertices=np.flatnonzero(masses <= 0),
+            remedy='Drop them, or use mass="unit".',
+        )
+    name = "combinatorial" if weights else "given"
+    return Laplacian(stiffness, diagonal_matrix(masses), edges, edge_weight, name, kind)

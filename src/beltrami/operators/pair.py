@@ -1,0 +1,199 @@
+"""Laplacian: the pair (stiffness L, mass B) that everything else uses (definitions 13 to 15)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.sparse import csr_array
+
+from beltrami._arrays import Floats, Integers, as_function, read_only
+from beltrami.errors import MeshError, NegativeWeightError, check_name
+from beltrami.mesh.edge_matrix import symmetric_matrix
+from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.topology import Topology
+from beltrami.operators import bounds
+from beltrami.operators.areas import diagonal_matrix
+from beltrami.operators.gradient import edge_gradient, incidence_matrix
+
+MASSES = ("degree", "barycentric", "voronoi", "consistent", "unit")
+
+
+@dataclass(frozen=True, eq=False)
+class LaplacianProperties:
+    """What is true of a Laplacian, told and not assumed.
+
+    Attributes
+    ----------
+    non_negative_weights
+        Whether no weight is negative: then averaging obeys the maximum principle, and with the
+        degree mass the spectrum lies in [0, 2] (theorem 9).
+    negative_edges
+        (q, 2) int: the edges with a negative weight.
+    linear_precision
+        Whether L x = 0 inside a planar mesh: cotangent weights only.
+    spectral_bound
+        An upper bound on the eigenvalues of the pair (L, B).
+    """
+
+    non_negative_weights: bool
+    negative_edges: Integers
+    linear_precision: bool
+    spectral_bound: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Laplacian:
+    r"""A stiffness :math:`L = D - W`, symmetric positive semi-definite with L1 = 0, and a mass B.
+
+    ``laplacian`` makes it. The operator is :math:`B^{-1} L`; it is self-adjoint for
+    :math:`\langle f, g\rangle_B = f^T B g`, which ``inner``, ``norm`` and ``mean`` use. With
+    cotangent weights :math:`\langle Lf, f\rangle = \int |\nabla f|^2` and
+    :math:`B^{-1}L \approx -\Delta`: positive, with the factor ½ in the weights (E29, E30).
+
+    Attributes
+    ----------
+    stiffness : (n, n) csr_array
+    mass : (n, n) csr_array, diagonal unless consistent
+    edges : (p, 2) int, i < j
+    edge_weight : (p,) weights w_ij of the edges
+    weight_kind, mass_kind : their names
+    """
+
+    stiffness: csr_array
+    mass: csr_array
+    edges: Integers
+    edge_weight: Floats
+    weight_kind: str
+    mass_kind: str
+    domain: Mesh | Topology | None = field(default=None)
+
+    def __repr__(self) -> str:
+        half = ", (cot α + cot β)/2" if self.weight_kind == "cotangent" else ""
+        return (
+            f"<Laplacian: {self.n} vertices, {self.weight_kind} weights{half}, "
+            f"{self.mass_kind} mass, positive semi-definite>"
+        )
+
+    @property
+    def n(self) -> int:
+        """Number of vertices n."""
+        return int(self.stiffness.shape[0])
+
+    # ---------------------------------------------------------------- matrices
+
+    @cached_property
+    def weights(self) -> csr_array:
+        """(n, n) symmetric W, zero diagonal."""
+        return symmetric_matrix(self.edges, self.edge_weight, self.n)
+
+    @cached_property
+    def degrees(self) -> Floats:
+        """(n,) degrees d_i = Σ_j w_ij; positive for cotangent weights too (S1 of the errata)."""
+        return read_only(self.stiffness.diagonal())
+
+    @cached_property
+    def masses(self) -> Floats:
+        """(n,) row sums of B: the integrals of the hat functions, or the degrees."""
+        if self.mass_kind == "consistent":
+            return read_only(np.asarray(self.mass.sum(axis=1)))
+        return read_only(self.mass.diagonal())
+
+    @cached_property
+    def averaging(self) -> csr_array:
+        r"""(n, n) :math:`\tilde W = D^{-1} W`, rows that add to 1 (definition 9).
+
+        Raises NegativeWeightError, with the edges, if a weight is negative.
+        """
+        self.require_non_negative("averaging")
+        return csr_array(diagonal_matrix(1 / self.degrees) @ self.weights)
+
+    @cached_property
+    def normalized(self) -> csr_array:
+        r"""(n, n) :math:`\tilde L = D^{-1/2} L D^{-1/2}`, unit diagonal (definition 15, E43)."""
+        root = diagonal_matrix(1 / np.sqrt(self.degrees))
+        return csr_array(root @ self.stiffness @ root)
+
+    @cached_property
+    def incidence(self) -> csr_array:
+        """(p, n) signed incidence G0; L = G0' diag(edge_weight) G0 for weights of any sign."""
+        return incidence_matrix(self.edges, self.n)
+
+    @cached_property
+    def gradient(self) -> csr_array:
+        """(p, n) edge gradient G with G'G = L (theorem 6); NegativeWeightError if w < 0 (E40)."""
+        return edge_gradient(self.edges, self.edge_weight, self.n)
+
+    # ---------------------------------------------------------------- functions
+
+    def apply(self, f: ArrayLike) -> Floats:
+        """B⁻¹ L f for (n,) or (n, c); not defined for the consistent mass, which needs a solve."""
+        values = as_function(f, self.n)
+        self._require_diagonal("apply")
+        return np.asarray(((self.stiffness @ values).T / self.masses).T)
+
+    def inner(self, f: ArrayLike, g: ArrayLike) -> float:
+        """<f, g>_B = f' B g, summed over the columns (definition 6 with a mass, E12)."""
+        return float(np.vdot(as_function(f, self.n), self.mass @ as_function(g, self.n)))
+
+    def norm(self, f: ArrayLike) -> float:
+        """Norm sqrt(<f, f>_B)."""
+        return float(np.sqrt(self.inner(f, f)))
+
+    def mean(self, f: ArrayLike) -> Floats:
+        """Mean <1, f>_B / <1, 1>_B of each column: what diffusion preserves and tends to."""
+        return np.asarray(self.masses @ as_function(f, self.n) / self.masses.sum())
+
+    def dirichlet_energy(self, f: ArrayLike) -> float:
+        """<Lf, f>, summed over the columns; ∫|∇f|² of the linear interpolant for cotangents."""
+        values = as_function(f, self.n)
+        return float(np.vdot(values, self.stiffness @ values))
+
+    # ---------------------------------------------------------------- guarantees
+
+    @cached_property
+    def properties(self) -> LaplacianProperties:
+        """What is true of these weights on this mesh."""
+        negative = self.edges[self.edge_weight < 0]
+        return LaplacianProperties(
+            non_negative_weights=not len(negative),
+            negative_edges=read_only(negative),
+            linear_precision=self.weight_kind == "cotangent",
+            spectral_bound=self.spectral_bound(),
+        )
+
+    def spectral_bound(self, mass: str | None = None) -> float:
+        r"""Return a proven upper bound on the eigenvalues of (L, B), or of L with another mass.
+
+        The largest eigenvalue over the pairs of the faces (edges, for a graph). With B = D and
+        cotangent weights it is the bound of E62, :math:`(3 + \sqrt{1 - 8 \cos A \cos B
+        \cos C}) / 2 < 3`; with area masses it grows like the inverse square of the shortest
+        edges. Explicit steps must stay below twice its inverse. Cost: O(m).
+        """
+        kind = self.mass_kind if mass is None else check_name("mass", mass, MASSES)
+        if self.domain is None:
+            masses = self.degrees if kind == "degree" else np.ones(self.n)
+            return bounds.largest_edge_eigenvalue(
+                self.edges, self.edge_weight, self.degrees, masses
+            )
+        sides = bounds.side_weights(self.domain, self.edge_weight, self.weight_kind)
+        return bounds.largest_face_eigenvalue(sides, bounds.corner_masses(self.domain, sides, kind))
+
+    def require_non_negative(self, what: str) -> None:
+        """Raise NegativeWeightError, with the edges, if a weight is negative."""
+        if (self.edge_weight < 0).any():
+            raise NegativeWeightError(
+                f"{what} needs non-negative weights, and some {self.weight_kind} ones are negative",
+                edges=self.edges[self.edge_weight < 0],
+                remedy='Use laplacian(mesh, "combinatorial") or "distance", or heat(), which '
+                "needs no sign.",
+            )
+
+    def _require_diagonal(self, what: str) -> None:
+        if self.mass_kind == "consistent":
+            raise MeshError(
+                f"{what} needs a diagonal mass, and the consistent mass is not",
+                remedy='Use mass="voronoi", or solve with factorize(laplacian.mass).',
+            )

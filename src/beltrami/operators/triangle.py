@@ -1,0 +1,59 @@
+"""One triangle: the four numbers from which every weight and area of a face follows."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from beltrami._jit import kernel
+
+BARYCENTRIC, VORONOI, CIRCUMCENTRIC = 0, 1, 2
+
+
+@kernel
+def measure(x: Any, i: int, j: int, k: int) -> Any:
+    """Return the dot products of the sides at the corners i, j, k, and twice the area.
+
+    The cotangent at a corner is its dot product over twice the area; the square of a side is the
+    sum of the dot products at its two ends. Both keep their digits in needles, where formulas in
+    the lengths lose them.
+    """
+    ux, uy, uz = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1], x[j, 2] - x[i, 2]
+    vx, vy, vz = x[k, 0] - x[j, 0], x[k, 1] - x[j, 1], x[k, 2] - x[j, 2]
+    wx, wy, wz = x[i, 0] - x[k, 0], x[i, 1] - x[k, 1], x[i, 2] - x[k, 2]
+    at_i = -(ux * wx + uy * wy + uz * wz)
+    at_j = -(ux * vx + uy * vy + uz * vz)
+    at_k = -(vx * wx + vy * wy + vz * wz)
+    cx, cy, cz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    return at_i, at_j, at_k, (cx * cx + cy * cy + cz * cz) ** 0.5
+
+
+@kernel
+def is_flat(at_i: float, at_j: float, at_k: float, double: float) -> bool:
+    """Whether area <= 1e-12 (longest side)², the bound of ``degenerate_faces``; true for NaN."""
+    longest = max(at_i + at_j, at_j + at_k, at_k + at_i)
+    return not (double > 2e-12 * longest)
+
+
+@kernel
+def shares(at_i: float, at_j: float, at_k: float, double: float, kind: int) -> Any:
+    """Return the parts of the area of a triangle that belong to its corners; they add to it.
+
+    ``BARYCENTRIC`` a third each. ``CIRCUMCENTRIC`` the signed Voronoi cells of theorem 3 with
+    its constant corrected (E22): (|e_ij|² cot k + |e_ik|² cot j) / 8. ``VORONOI`` the same in
+    triangles without an obtuse angle, otherwise half the area at that angle and a quarter at the
+    others (Meyer et al. 2003): never negative.
+    """
+    if kind == 0:
+        return double / 6, double / 6, double / 6
+    if kind == 1:
+        if at_i < 0:
+            return double / 4, double / 8, double / 8
+        if at_j < 0:
+            return double / 8, double / 4, double / 8
+        if at_k < 0:
+            return double / 8, double / 8, double / 4
+    on_i = (at_j + at_k) * at_i  # |e_jk|² cot i, times twice the area
+    on_j = (at_k + at_i) * at_j
+    on_k = (at_i + at_j) * at_k
+    eighth = 8 * double
+    return (on_j + on_k) / eighth, (on_k + on_i) / eighth, (on_i + on_j) / eighth

@@ -1,0 +1,1 @@
+"""Solvers: linear algebra that knows no mesh."""
