@@ -1,0 +1,68 @@
+"""The surface: topology, geometry and light (section 3.1, figure 3.1)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from beltrami.cli.chapters.chapter import Chapter, Stage, number
+from beltrami.display.light import SpotLight, light_intensity
+from beltrami.mesh.diagnose import diagnose
+
+
+def surface(stage: Stage) -> Chapter:
+    """Diagnose the mesh, draw it, its faces from near, and its light."""
+    mesh = stage.mesh
+    diagnosis = diagnose(mesh)
+    angles = np.degrees(mesh.corner_angles)
+    rows = (
+        ("vertices, edges, faces", f"{mesh.n_vertices}, {diagnosis.n_edges}, {mesh.n_faces}"),
+        ("components, boundary loops", f"{diagnosis.n_components}, {diagnosis.n_boundary_loops}"),
+        ("Euler characteristic, genus", f"{diagnosis.euler_characteristic}, {diagnosis.genus}"),
+        ("manifold, oriented", f"{diagnosis.is_manifold}, {diagnosis.is_oriented}"),
+        ("area", number(diagnosis.area)),
+        ("volume", "open" if diagnosis.volume is None else number(diagnosis.volume)),
+        ("mean edge length", number(float(mesh.edge_lengths.mean()))),
+        ("smallest, largest angle", f"{angles.min():.1f}°, {angles.max():.1f}°"),
+        ("faces with an obtuse angle", f"{(angles > 90).any(axis=1).mean():.1%}"),
+    )
+    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+    figures = [
+        stage.draw("surface.png", "The surface, in perspective, shaded by Gouraud.", mesh),
+        stage.draw(
+            "faces.png",
+            "Its faces from near.",
+            mesh,
+            zoom=6,
+            focus=mesh.vertices[_farthest(mesh.vertices)],
+            wireframe=True,
+            shading="flat",
+        ),
+    ]
+    if mesh.dimension == 3:
+        top = {"x": 0, "y": 1, "z": 2}[stage.up]
+        above = (low + high) / 2
+        above[top] = high[top] + (high - low).max()
+        intensity = light_intensity(mesh, SpotLight(above))
+        figures.append(
+            stage.draw(
+                "light.png",
+                "The light of a spot above: I(i) = max(⟨n, l⟩, 0), a function on the vertices. "
+                f"It reaches {np.mean(intensity > 0):.0%} of them.",
+                mesh,
+                intensity,
+                limits=(0, 1),
+            )
+        )
+    return Chapter(
+        "The surface",
+        "3.1",
+        tuple(diagnosis.report().splitlines()[4:]),
+        (("quantity", "value"), *rows),
+        tuple(figures),
+        commands=(f"beltrami info {stage.name}", f"beltrami render {stage.name} -o surface.png"),
+    )
+
+
+def _farthest(vertices: np.ndarray) -> int:
+    """Return the vertex farthest from the middle: a place with something to see."""
+    return int(((vertices - vertices.mean(axis=0)) ** 2).sum(axis=1).argmax())

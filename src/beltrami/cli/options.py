@@ -1,0 +1,40 @@
+"""Options that several verbs share, so that they are spelled and explained alike."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+MeshFile = Annotated[Path, typer.Argument(metavar="MESH", help="A mesh: .obj .off .ply .stl ...")]
+MeshOutput = Annotated[
+    Path, typer.Option("-o", "--output", metavar="FILE", help="Mesh file to write.")
+]
+Output = Annotated[
+    Path,
+    typer.Option(
+        "-o", "--output", metavar="FILE", help="File to write: a mesh, or .npy for the values."
+    ),
+]
+Data = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE", help="Function on the vertices: .npy .txt .ply .gii ..."),
+]
+Weights = Annotated[
+    str | None,
+    typer.Option(help="combinatorial, distance or cotangent.", show_default=False),
+]
+Mass = Annotated[
+    str | None,
+    typer.Option(
+        help="voronoi, barycentric, consistent, degree or unit.",
+        show_default="voronoi for cotangent weights, degree otherwise",
+    ),
+]
+Time = Annotated[
+    float | None,
+    typer.Option(help="Diffusion time, in length² with area masses.", show_default=False),
+]
+HoldBoundary = Annotated[bool, typer.Option("--hold-boundary", help="Keep the boundary in place.")]
+Json = Annotated[bool, typer.Option("--json", help="Write JSON to stdout, for machines.")]

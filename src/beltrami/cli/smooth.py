@@ -1,0 +1,68 @@
+"""beltrami smooth: average a mesh, or a function on it, with its neighbours."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from beltrami.cli.console import waiting
+from beltrami.cli.functions import read_data, write_values
+from beltrami.cli.options import Data, HoldBoundary, MeshFile, Output, Time, Weights
+
+
+def smooth(
+    mesh: MeshFile,
+    output: Output,
+    method: Annotated[
+        str, typer.Option(help="averaging, or heat: implicit, explicit (with --time).")
+    ] = "averaging",
+    steps: Annotated[
+        int | None, typer.Option(min=0, help="Rounds, or time steps.", show_default="10")
+    ] = None,
+    step: Annotated[float, typer.Option(help="Of averaging: how far to the mean, 0 to 1.")] = 1.0,
+    time: Time = None,
+    weights: Weights = None,
+    data: Data = None,
+    hold_boundary: HoldBoundary = False,
+    keep: Annotated[
+        str | None, typer.Option(help="volume or centroid.", show_default=False)
+    ] = None,
+) -> None:
+    """Smooth a mesh, or the function --data on it.
+
+    Averaging takes combinatorial weights unless told otherwise, heat cotangent ones.
+    """
+    from beltrami.diffusion.smooth_mesh import smooth_mesh
+    from beltrami.diffusion.smoothing import smooth as smooth_function
+    from beltrami.io.registry import read_mesh, write_mesh
+    from beltrami.operators.laplacian import laplacian
+
+    with waiting(f"reading {mesh.name}"):
+        read = read_mesh(mesh)
+    if data is not None:
+        if method != "averaging":
+            raise typer.BadParameter("a function is diffused by `beltrami heat`")
+        values = read_data(data, read)
+        held = read.topology.boundary_edges.ravel() if hold_boundary else ()
+        with waiting("smoothing") as progress:
+            pair = laplacian(read, weights or "combinatorial", "degree")
+            rounds = 10 if steps is None else steps
+            result = smooth_function(pair, values, rounds, step, hold=held, progress=progress)
+        write_values(output, read, data.stem, result)
+        typer.echo(f"wrote {output}")
+        return
+    with waiting("smoothing") as progress:
+        smoothed = smooth_mesh(
+            read,
+            method,
+            steps=steps,
+            step=step,
+            time=time,
+            weights=weights,
+            hold_boundary=hold_boundary,
+            keep=keep,
+            progress=progress,
+        )
+    write_mesh(output, smoothed)
+    typer.echo(f"wrote {output}: {smoothed!r}")

@@ -1,0 +1,88 @@
+"""beltrami tour: everything the package can do, on one mesh, in one folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from beltrami.cli.console import waiting
+from beltrami.errors import BeltramiError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from beltrami.cli.chapters.chapter import Chapter, Stage
+    from beltrami.mesh.mesh import Mesh
+
+
+def tour(
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="FOLDER", help="Folder to write into.")
+    ],
+    mesh: Annotated[
+        Path | None,
+        typer.Argument(metavar="[MESH]", help="Mesh file; a shape of our own if not given."),
+    ] = None,
+    up: Annotated[
+        str | None, typer.Option(help="Upward axis in pictures: x, y or z.", show_default="y")
+    ] = None,
+    view: Annotated[
+        tuple[float, float] | None,
+        typer.Option(help="Azimuth and elevation of the eye, in degrees.", show_default=False),
+    ] = None,
+) -> None:
+    """Run everything on one mesh, and leave results and one index page in a folder."""
+    from beltrami.cli.chapters.chapter import Stage
+    from beltrami.cli.index_page import index_page
+    from beltrami.io.atomic import replacing
+
+    with waiting("preparing the mesh"):
+        shape, notes = _prepared(mesh)
+    output.mkdir(parents=True, exist_ok=True)
+    axis = up or ("z" if mesh is None else "y")
+    stage = Stage(str(mesh or "mesh.ply"), shape, output, axis, view)
+    chapters = _play(stage)
+    title = f"A tour of {'the blob' if mesh is None else mesh.name}"
+    with replacing(output / "index.html") as file:
+        file.write(index_page(title, notes, chapters).encode())
+    typer.echo(f"{len(chapters)} chapters. Open {output / 'index.html'}")
+
+
+def _prepared(path: Path | None) -> tuple[Mesh, list[str]]:
+    """Read the mesh; what no operator accepts is repaired, and said."""
+    from beltrami.io.registry import read_mesh
+    from beltrami.mesh.repair import repair
+    from beltrami.mesh.shapes import blob
+
+    if path is None:
+        return blob(20_000), ["The embedded shape: smooth limbs, a thin neck, a sharp crest."]
+    fixed = repair(read_mesh(path), remove_degenerate_faces=True, remove_unreferenced=True)
+    notes = [f"Before the tour, on a copy: {line}." for line in fixed.done]
+    for note in notes:
+        typer.echo(note)
+    return fixed.mesh, notes
+
+
+def _play(stage: Stage) -> list[Chapter]:
+    """Run the chapters; one that cannot be run on this mesh says why, and the others go on."""
+    from beltrami.cli.chapters.averaging import averaging
+    from beltrami.cli.chapters.chapter import Chapter
+    from beltrami.cli.chapters.files import files
+    from beltrami.cli.chapters.heat import heat
+    from beltrami.cli.chapters.operators import operators
+    from beltrami.cli.chapters.surface import surface
+
+    acts: tuple[Callable[[Stage], Chapter], ...] = (surface, operators, averaging, heat, files)
+    played = []
+    with waiting("touring") as progress:
+        for done, act in enumerate(acts):
+            progress(done, len(acts))
+            try:
+                played.append(act(stage))
+            except BeltramiError as error:
+                title = act.__name__.capitalize()
+                played.append(Chapter(title, "", (f"Not on this mesh: {error}",)))
+                typer.echo(f"{title}: not on this mesh: {error}", err=True)
+    return played
