@@ -6,6 +6,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
+from scipy.sparse import csr_array
 
 from beltrami.errors import DimensionError, MeshError, NonFiniteError
 
@@ -30,6 +31,13 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
     return array
 
 
+def read_only_matrix(matrix: csr_array) -> csr_array:
+    """Mark the arrays of a sparse matrix that we have just made as read-only; return it."""
+    for array in (matrix.data, matrix.indices, matrix.indptr):
+        read_only(array)
+    return matrix
+
+
 def frozen(array: ArrayLike, dtype: DTypeLike) -> NDArray[Any]:
     """Return a read-only, C-ordered array of this type, copied only where somebody could write.
 
@@ -40,11 +48,22 @@ def frozen(array: ArrayLike, dtype: DTypeLike) -> NDArray[Any]:
     >>> frozen(mine, float).flags.writeable, mine.flags.writeable
     (False, True)
     """
-    given = np.asarray(array)
+    given = rectangular(array)
     result = np.ascontiguousarray(given, dtype=dtype).reshape(given.shape)
     if np.shares_memory(result, given) and _can_change(given):
         result = result.copy()
     return read_only(result)
+
+
+def rectangular(array: ArrayLike) -> NDArray[Any]:
+    """Return an array of real numbers; DimensionError if it has ragged rows or other things."""
+    try:
+        given = np.asarray(array)
+    except ValueError as cause:
+        raise DimensionError("the rows of an array differ in length") from cause
+    if given.dtype.kind not in "biuf":
+        raise DimensionError(f"an array of real numbers is needed, not of type {given.dtype}")
+    return given
 
 
 def as_function(f: ArrayLike, n: int, what: str = "the function") -> Floats:
@@ -57,7 +76,7 @@ def as_function(f: ArrayLike, n: int, what: str = "the function") -> Floats:
     NonFiniteError
         If a value is NaN or infinite; ``error.vertices`` names the rows.
     """
-    values = np.ascontiguousarray(f, dtype=np.float64)
+    values = np.ascontiguousarray(rectangular(f), dtype=np.float64)
     if values.ndim not in (1, 2) or len(values) != n:
         raise DimensionError(
             f"{what} has the shape {values.shape} where ({n},) or ({n}, c) is needed",
@@ -88,7 +107,7 @@ def as_indices(indices: ArrayLike, n: int, what: str) -> Integers:
     MeshError
         If an index is not an integer in 0..n-1; ``error.vertices`` lists them.
     """
-    given = np.asarray(indices)
+    given = rectangular(indices)
     if given.dtype == np.bool_ and given.shape == (n,):
         return np.flatnonzero(given).astype(np.int64)
     if given.size == 0:

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats, Integers
-from beltrami._jit import kernel
+from beltrami._jit import kernel, unsigned
 
 
 def symmetric_matrix(
@@ -27,11 +27,12 @@ def symmetric_matrix(
            [5., 1., 7.],
            [0., 7., 1.]])
     """
-    own = 0 if diagonal is None else 1
+    own = np.uint64(diagonal is not None)
     indptr = np.zeros(n + 1, np.int32)
-    size = 2 * len(edges) + own * n
+    size = 2 * len(edges) + int(own) * n
     indices, data = np.empty(size, np.int32), np.empty(size)
-    _fill(edges, values, np.zeros(0) if diagonal is None else diagonal, own, indptr, indices, data)
+    stored = np.zeros(0) if diagonal is None else diagonal
+    _fill(unsigned(edges), values, stored, own, unsigned(indptr), unsigned(indices), data)
     return csr_array((data, indices, indptr), shape=(n, n))
 
 
@@ -44,7 +45,7 @@ def edge_sums(edges: Integers, values: Floats, n: int) -> Floats:
     [5.0, 12.0, 7.0]
     """
     sums = np.zeros(n)
-    _add_to_ends(edges, values, sums)
+    _add_to_ends(unsigned(edges), values, sums)
     return sums
 
 
@@ -58,31 +59,49 @@ def _add_to_ends(edges: Any, values: Any, sums: Any) -> None:
 
 @kernel
 def _fill(
-    edges: Any, values: Any, diagonal: Any, own: int, indptr: Any, indices: Any, data: Any
+    edges: Any, values: Any, diagonal: Any, own: Any, indptr: Any, indices: Any, data: Any
 ) -> None:
-    """Fill the CSR arrays: in each row the smaller neighbours, the diagonal, the larger ones."""
-    n = indptr.size - 1
-    p = edges.shape[0]
-    for e in range(p):
-        indptr[edges[e, 0] + 1] += 1
-        indptr[edges[e, 1] + 1] += 1
-    for i in range(n):
-        indptr[i + 1] += indptr[i] + own
-    place = indptr[:n].copy()
-    for e in range(p):
+    """Fill the CSR arrays: in each row the smaller neighbours, the diagonal, the larger ones.
+
+    ``indptr`` comes as zeros and holds the ends of the rows, until the last loop moves them.
+    """
+    one, zero = np.uint64(1), np.uint64(0)
+    n, p = np.uint64(indptr.size) - one, np.uint64(edges.shape[0])
+    e = zero
+    while e < p:
+        indptr[edges[e, 0]] += 1
+        indptr[edges[e, 1]] += 1
+        e += one
+    i = zero
+    start = np.uint64(0)
+    while i < n:  # counts to starts
+        size = np.uint64(indptr[i]) + own
+        indptr[i] = start
+        start += size
+        i += one
+    e = zero
+    while e < p:
         j = edges[e, 1]
-        indices[place[j]] = edges[e, 0]
-        data[place[j]] = values[e]
-        place[j] += 1
-    e = 0
-    for i in range(n):
-        q = place[i]
+        q = np.uint64(indptr[j])
+        indices[q] = edges[e, 0]
+        data[q] = values[e]
+        indptr[j] = q + one
+        e += one
+    e = i = zero
+    while i < n:
+        q = np.uint64(indptr[i])
         if own:
             indices[q] = i
             data[q] = diagonal[i]
-            q += 1
+            q += one
         while e < p and edges[e, 0] == i:
             indices[q] = edges[e, 1]
             data[q] = values[e]
-            q += 1
-            e += 1
+            q += one
+            e += one
+        indptr[i] = q
+        i += one
+    while i > zero:  # ends to starts
+        indptr[i] = indptr[i - one]
+        i -= one
+    indptr[zero] = 0

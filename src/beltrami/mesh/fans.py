@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import Integers
+from beltrami._arrays import Integers, read_only
 from beltrami._jit import kernel
 
 
@@ -42,7 +42,8 @@ def group_corners(faces: Integers, twins: NDArray[np.int32], n: int) -> Fans:
     >>> group_corners(bow_tie, pair_sides(bow_tie, 5).twins, 5).of_vertex.tolist()
     [2, 1, 1, 1, 1]
     """
-    return Fans(*_group_corners(faces, twins, n))
+    root, of_vertex = _group_corners(faces, twins, n)
+    return Fans(read_only(root), read_only(of_vertex))
 
 
 @kernel

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beltrami._arrays import Integers, read_only
-from beltrami._jit import kernel
+from beltrami._jit import kernel, unsigned
 
 BOUNDARY = -1  # the twin of a side that no other face shares
 NOT_MANIFOLD = -2  # the twin of a side that more than two faces share
@@ -56,18 +56,17 @@ def pair_sides(faces: Integers, n: int) -> HalfEdges:
     >>> sides.twins.tolist()  # side 0 of face 0 is side 2 of face 1
     [[5, -1, -1], [-1, -1, 0]]
     """
-    by_low = np.zeros(n + 1, np.int32)
-    by_high = np.zeros(n + 1, np.int32)
-    _count_sides(faces, by_low, by_high)
-    total = int(by_low[n])
-    sides = np.empty(total, np.int64)
-    ordered = np.empty(total, np.int64)
-    _sort_sides(faces, by_low, by_high, sides, ordered)
+    m = len(faces)
+    corners = unsigned(faces)
+    by_low, by_high = np.zeros(n, np.uint32), np.zeros(n, np.uint32)
+    total = int(_count_sides(corners, by_low, by_high))
     edges = np.empty((total, 2), np.int64)  # the pages beyond the last edge are never touched
-    face_edges = np.empty((len(faces), 3), np.int32)
-    twins = np.empty((len(faces), 3), np.int32)
+    ordered = np.empty(total, np.uint64)
+    _sort_sides(corners, by_low, by_high, unsigned(edges).reshape(-1), ordered)
+    face_edges = np.empty((m, 3), np.int32)
+    twins = np.empty((m, 3), np.int32)
     count = np.empty(total, np.int32)
-    complete = total == 3 * len(faces)
+    complete = total == 3 * m
     if not complete:  # faces that name a vertex twice have no sides
         face_edges[:], twins[:] = -1, BOUNDARY
     p, disoriented = _number_edges(ordered, by_low, edges, face_edges.ravel(), twins.ravel(), count)
@@ -79,78 +78,104 @@ def pair_sides(faces: Integers, n: int) -> HalfEdges:
 # larger first: no comparison, and hardly a branch that the processor guesses wrong. A side is
 # packed into one integer: the vertex that still has to be sorted by (after that, the other one)
 # times 2³², plus twice its half-edge, plus 1 if it runs from the smaller to the larger vertex.
-# The buffers come from numpy, which asks for huge pages: first touches are a third of the cost.
+# The buffers come from numpy, which asks for huge pages, because first touches are dear; the
+# array of the edges serves the first sort as well.
 
 
 @kernel
-def _count_sides(faces: Any, by_low: Any, by_high: Any) -> None:
-    """Count the sides of each smaller and of each larger vertex; leave the starts of buckets."""
-    n = by_low.size - 1
-    for f in range(faces.shape[0]):
+def _count_sides(faces: Any, by_low: Any, by_high: Any) -> Any:
+    """Count the sides by smaller and by larger vertex, then turn the counts into starts."""
+    one = np.uint64(1)
+    m = np.uint64(faces.shape[0])
+    f = np.uint64(0)
+    while f < m:
         i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
         if i != j and j != k and k != i:
-            by_low[min(i, j) + 1] += 1
-            by_low[min(j, k) + 1] += 1
-            by_low[min(k, i) + 1] += 1
-            by_high[max(i, j) + 1] += 1
-            by_high[max(j, k) + 1] += 1
-            by_high[max(k, i) + 1] += 1
-    for v in range(n):
-        by_low[v + 1] += by_low[v]
-        by_high[v + 1] += by_high[v]
+            by_low[min(i, j)] += 1
+            by_low[min(j, k)] += 1
+            by_low[min(k, i)] += 1
+            by_high[max(i, j)] += 1
+            by_high[max(j, k)] += 1
+            by_high[max(k, i)] += 1
+        f += one
+    low = high = 0
+    for v in range(by_low.size):
+        of_low, of_high = by_low[v], by_high[v]
+        by_low[v], by_high[v] = low, high
+        low += of_low
+        high += of_high
+    return low
 
 
 @kernel
 def _sort_sides(faces: Any, by_low: Any, by_high: Any, sides: Any, ordered: Any) -> None:
     """Sort the sides; on return ``by_low[v]`` is the end of the bucket of v."""
-    for f in range(faces.shape[0]):
+    one, two, four = np.uint64(1), np.uint64(2), np.uint64(4)
+    six, half = np.uint64(6), np.uint64(32)
+    m = np.uint64(faces.shape[0])
+    f = h = np.uint64(0)
+    while f < m:
         i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
         if i != j and j != k and k != i:
-            h = 6 * f
             high = max(j, k)
-            sides[by_high[high]] = (min(j, k) << 32) | (h + (j < k))
+            sides[np.uint64(by_high[high])] = (min(j, k) << half) | h | np.uint64(j < k)
             by_high[high] += 1
             high = max(k, i)
-            sides[by_high[high]] = (min(k, i) << 32) | (h + 2 + (k < i))
+            sides[np.uint64(by_high[high])] = (min(k, i) << half) | (h + two) | np.uint64(k < i)
             by_high[high] += 1
             high = max(i, j)
-            sides[by_high[high]] = (min(i, j) << 32) | (h + 4 + (i < j))
+            sides[np.uint64(by_high[high])] = (min(i, j) << half) | (h + four) | np.uint64(i < j)
             by_high[high] += 1
-    begin = 0
-    for high in range(by_high.size - 1):
-        for q in range(begin, by_high[high]):
-            low = sides[q] >> 32
-            ordered[by_low[low]] = (high << 32) | (sides[q] & 0xFFFFFFFF)
+        h += six
+        f += one
+    n = np.uint64(by_high.size)
+    high = q = np.uint64(0)
+    while high < n:
+        end = np.uint64(by_high[high])
+        while q < end:
+            low = sides[q] >> half
+            ordered[np.uint64(by_low[low])] = (high << half) | (sides[q] & np.uint64(0xFFFFFFFF))
             by_low[low] += 1
-        begin = by_high[high]
+            q += one
+        high += one
 
 
 @kernel
 def _number_edges(
     ordered: Any, by_low: Any, edges: Any, face_edges: Any, twins: Any, count: Any
 ) -> Any:
-    """Run through the sorted sides: equal neighbours are the sides of one edge."""
-    p = q = disoriented = 0
-    for low in range(by_low.size - 1):
-        while q < by_low[low]:
-            high = ordered[q] >> 32
-            begin = q
-            while q < by_low[low] and ordered[q] >> 32 == high:
-                face_edges[(ordered[q] & 0xFFFFFFFF) >> 1] = p
-                q += 1
-            first = ordered[begin] & 0xFFFFFFFF
-            if q - begin == 2:
-                second = ordered[begin + 1] & 0xFFFFFFFF
-                twins[first >> 1] = second >> 1
-                twins[second >> 1] = first >> 1
-                disoriented += (first ^ second ^ 1) & 1
-            elif q - begin == 1:
-                twins[first >> 1] = -1
-            else:
-                for s in range(begin, q):
-                    twins[(ordered[s] & 0xFFFFFFFF) >> 1] = -2
+    """Run through the sorted sides: neighbours with the same ends are the sides of one edge."""
+    one, half, code = np.uint64(1), np.uint64(32), np.uint64(0xFFFFFFFF)
+    n = np.uint64(by_low.size)
+    low = p = q = np.uint64(0)
+    disoriented = 0
+    while low < n:
+        end = np.uint64(by_low[low])
+        while q < end:
+            high = ordered[q] >> half
+            first = ordered[q] & code
             edges[p, 0] = low
             edges[p, 1] = high
+            face_edges[first >> one] = p
+            begin = q
+            q += one
+            if q < end and ordered[q] >> half == high:
+                second = ordered[q] & code
+                face_edges[second >> one] = p
+                twins[first >> one] = second >> one
+                twins[second >> one] = first >> one
+                q += one
+                if q < end and ordered[q] >> half == high:
+                    while q < end and ordered[q] >> half == high:
+                        face_edges[(ordered[q] & code) >> one] = p
+                        q += one
+                    for s in range(begin, q):
+                        twins[(ordered[s] & code) >> one] = -2
+                else:
+                    disoriented += int((first ^ second ^ one) & one)
+            else:
+                twins[first >> one] = -1
             count[p] = q - begin
-            p += 1
+            p += one
+        low += one
     return p, disoriented

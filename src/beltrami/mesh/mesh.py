@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from beltrami._arrays import Floats, Integers, frozen, read_only
+from beltrami._frozen import Frozen
 from beltrami.errors import (
     DimensionError,
     MeshError,
@@ -23,7 +24,7 @@ from beltrami.mesh.export import export
 from beltrami.mesh.topology import Topology
 
 
-class Mesh:
+class Mesh(Frozen):
     """A triangle mesh: the topology M = (V, E, F) and positions x_i (section 3.1.2).
 
     Nothing is reordered, merged or repaired. Shapes and indices are checked here; defects
@@ -92,9 +93,6 @@ class Mesh:
             vertex_data=_checked_data(vertex_data or {}, len(positions)),
             corner_uv=uv,
         )
-
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(f"a Mesh is frozen: {name!r} cannot be set (see with_vertices)")
 
     def __reduce__(self) -> Any:  # what is derived is not stored
         return Mesh, (self.vertices, self.topology, dict(self.vertex_data), self.corner_uv)

@@ -9,16 +9,28 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
-from beltrami._arrays import Booleans, Integers, frozen, read_only
-from beltrami.errors import DimensionError, MeshError, NotManifoldError, NotOrientableError
+from beltrami._arrays import (
+    Booleans,
+    Integers,
+    read_only,
+    read_only_matrix,
+)
+from beltrami._frozen import Frozen
+from beltrami.errors import (
+    MeshError,
+    NotManifoldError,
+    NotOrientableError,
+    check_name,
+)
 from beltrami.mesh.connectivity import component_labels, parity_colouring
+from beltrami.mesh.faces import checked_faces
 from beltrami.mesh.fans import Fans, group_corners
-from beltrami.mesh.half_edges import BOUNDARY, HalfEdges, pair_sides
+from beltrami.mesh.half_edges import HalfEdges, pair_sides
 from beltrami.mesh.loops import order_boundary
 from beltrami.mesh.rings import adjacency_matrix, incident_faces, vertex_ring
 
 
-class Topology:
+class Topology(Frozen):
     """M = (V, E, F): which vertices make a face, and no positions.
 
     Faces that name a vertex twice are kept, but have no sides: they make no edge, no fan and no
@@ -49,28 +61,8 @@ class Topology:
     n_vertices: int
 
     def __init__(self, faces: ArrayLike, n_vertices: int | None = None) -> None:
-        given = np.asarray(faces)
-        if given.size == 0:
-            given = np.zeros((0, 3), np.int64)
-        if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "iu":
-            raise DimensionError(
-                f"faces are an array of shape {given.shape} and type {given.dtype} where (m, 3) "
-                "integers are needed",
-                remedy="Triangulate polygons; read_mesh does it for files.",
-            )
-        array = frozen(given, np.int64)
-        n = int(array.max(initial=-1)) + 1 if n_vertices is None else int(n_vertices)
-        if len(array) and (array.min() < 0 or array.max() >= n):
-            outside = np.flatnonzero(((array < 0) | (array >= n)).any(axis=1))
-            raise MeshError(
-                f"faces name vertices outside 0..{n - 1}",
-                faces=outside,
-                remedy="Indices start at 0 and end at the number of vertices less one.",
-            )
+        array, n = checked_faces(faces, n_vertices)
         self.__dict__.update(faces=array, n_vertices=n)
-
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(f"a Topology is frozen: {name!r} cannot be set")
 
     def __reduce__(self) -> Any:  # what is derived is not stored
         return Topology, (self.faces, self.n_vertices)
@@ -116,7 +108,7 @@ class Topology:
         sides = self.face_edges.ravel()
         kept = np.flatnonzero(sides >= 0)
         entries = (np.ones(len(kept)), (sides[kept], kept // 3))
-        return csr_array(entries, shape=(self.n_edges, self.n_faces))
+        return read_only_matrix(csr_array(entries, shape=(self.n_edges, self.n_faces)))
 
     @cached_property
     def boundary_edges(self) -> Integers:
@@ -133,18 +125,20 @@ class Topology:
     @cached_property
     def adjacency(self) -> csr_array:
         """(n, n) sparse: the symmetric matrix A with 1 where (i, j) is an edge."""
-        return adjacency_matrix(self.edges, self.n_vertices)
+        return read_only_matrix(adjacency_matrix(self.edges, self.n_vertices))
 
     @cached_property
     def vertex_faces(self) -> csr_array:
         """(n, m) sparse: row i marks the faces F_i around vertex i."""
-        return incident_faces(self.faces, self.n_vertices)
+        return read_only_matrix(incident_faces(self.faces, self.n_vertices))
 
     def ring(self, i: int, s: int = 1, kind: str = "exact") -> Integers:
         """Vertices of the s-ring of i, sorted: ``"exact"`` distance s, ``"ball"`` or ``"walk"``.
 
         The three readings of equation (3.2); see erratum E6.
         """
+        if s < 0:
+            raise MeshError(f"the radius of a ring cannot be {s}")
         return vertex_ring(self.adjacency, self._checked(i), s, kind)
 
     def face_ring(self, i: int) -> Integers:
@@ -206,7 +200,8 @@ class Topology:
         The first face of each component is kept as it is.
         """
         pairs, differ = self._face_pairs
-        return parity_colouring(pairs, differ, self.n_faces)
+        turned = parity_colouring(pairs, differ, self.n_faces)
+        return None if turned is None else read_only(turned)
 
     @property
     def is_orientable(self) -> bool:
@@ -240,15 +235,15 @@ class Topology:
         return order_boundary(self.faces, self.twins, self.fans.root)
 
     def components(self, through: str = "vertices") -> Integers:
-        """Label of the component of each face, through common vertices or common ``"edges"``."""
-        if through == "edges":
+        """Label of the component of each face, through common vertices or common ``"edges"``.
+
+        A face that names a vertex twice joins nothing; it has the label of its first vertex.
+        """
+        if check_name("way to connect faces", through, ("vertices", "edges")) == "edges":
             return component_labels(self._face_pairs[0], self.n_faces)
-        if not self.n_faces:
-            return np.zeros(0, np.int64)
-        sides = np.concatenate([self.faces[:, :2], self.faces[:, 1:]])
-        of_vertex = component_labels(sides, self.n_vertices)[self.faces[:, 0]]
+        of_vertex = component_labels(self.edges, self.n_vertices)[self.faces[:, 0]]
         _, first, labels = np.unique(of_vertex, return_index=True, return_inverse=True)
-        return np.argsort(np.argsort(first))[labels.ravel()].astype(np.int64)
+        return np.argsort(np.argsort(first))[labels].astype(np.int64)
 
     @property
     def n_components(self) -> int:
@@ -287,6 +282,3 @@ class Topology:
         """Whether the graph (V, E) has a colouring with two colours: never, with a face (E63)."""
         differ = np.ones(self.n_edges, np.bool_)
         return parity_colouring(self.edges, differ, self.n_vertices) is not None
-
-
-__all__ = ["BOUNDARY", "Topology"]

@@ -2,26 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats
-from beltrami._jit import kernel
 from beltrami.errors import check_name
 from beltrami.mesh.edge_matrix import symmetric_matrix
-from beltrami.mesh.geometry import in_space
 from beltrami.mesh.mesh import Mesh
-from beltrami.operators.soundness import refuse_flat_faces, require_faces, require_positions
-from beltrami.operators.triangle import (
-    BARYCENTRIC,
-    CIRCUMCENTRIC,
-    VORONOI,
-    is_flat,
-    measure,
-    shares,
-)
+from beltrami.operators.accumulate import accumulate
+from beltrami.operators.triangle import BARYCENTRIC, CIRCUMCENTRIC, VORONOI
 
 AREA_KINDS = {"barycentric": BARYCENTRIC, "voronoi": VORONOI, "circumcentric": CIRCUMCENTRIC}
 
@@ -53,13 +42,7 @@ def vertex_areas(mesh: Mesh, kind: str = "voronoi") -> Floats:
      'circumcentric': [1.0, 0.5, 0.5]}
     """
     check_name("kind of vertex areas", kind, tuple(AREA_KINDS))
-    require_faces(mesh.topology)
-    require_positions(mesh)
-    positions, corners = in_space(mesh.vertices, mesh.faces)
-    areas = np.zeros(mesh.n_vertices)
-    if _add_areas(positions, corners, mesh.faces, AREA_KINDS[kind], areas):
-        refuse_flat_faces(mesh)
-    return areas
+    return accumulate(mesh, False, AREA_KINDS[kind])[1]
 
 
 def diagonal_matrix(values: Floats) -> csr_array:
@@ -86,19 +69,3 @@ def consistent_mass(mesh: Mesh) -> csr_array:
     sides = np.zeros(topology.n_edges)
     np.add.at(sides, topology.face_edges.ravel(), twelfth)
     return symmetric_matrix(topology.edges, sides, mesh.n_vertices, diagonal)
-
-
-@kernel
-def _add_areas(x: Any, corners: Any, faces: Any, kind: int, areas: Any) -> int:
-    """Add the shares of each face to its corners; return the number of flat faces."""
-    flat = 0
-    for f in range(faces.shape[0]):
-        at_i, at_j, at_k, double = measure(x, corners[f, 0], corners[f, 1], corners[f, 2])
-        if is_flat(at_i, at_j, at_k, double):
-            flat += 1
-            continue
-        of_i, of_j, of_k = shares(at_i, at_j, at_k, double, kind)
-        areas[faces[f, 0]] += of_i
-        areas[faces[f, 1]] += of_j
-        areas[faces[f, 2]] += of_k
-    return flat

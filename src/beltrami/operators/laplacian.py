@@ -12,7 +12,13 @@ from beltrami.errors import DimensionError, MeshError, check_name
 from beltrami.mesh.edge_matrix import edge_sums, symmetric_matrix
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
-from beltrami.operators.areas import consistent_mass, diagonal_matrix, vertex_areas
+from beltrami.operators.accumulate import accumulate
+from beltrami.operators.areas import (
+    AREA_KINDS,
+    consistent_mass,
+    diagonal_matrix,
+    vertex_areas,
+)
 from beltrami.operators.pair import MASSES, Laplacian
 from beltrami.operators.soundness import refuse_unreferenced
 from beltrami.operators.weights import WEIGHTS, weigh_edges
@@ -72,11 +78,11 @@ def laplacian(domain: Domain, weights: str | None = None, mass: str | None = Non
     natural = "voronoi" if weight_kind == "cotangent" else "degree"
     mass_kind = check_name("mass", natural if mass is None else mass, MASSES)
     topology = domain.topology if isinstance(domain, Mesh) else domain
-    edge_weight = read_only(weigh_edges(domain, weight_kind))
+    edge_weight, areas = _weights_and_areas(domain, weight_kind, mass_kind)
     stiffness = _stiffness(topology.edges, edge_weight, topology.n_vertices)
     if (np.diff(stiffness.indptr) == 1).any():  # a row that holds its diagonal alone
         refuse_unreferenced(topology)
-    masses = _mass_matrix(domain, stiffness, mass_kind)
+    masses = _mass_matrix(domain, stiffness, mass_kind, areas)
     return Laplacian(stiffness, masses, topology.edges, edge_weight, weight_kind, mass_kind, domain)
 
 
@@ -85,18 +91,28 @@ def _stiffness(edges: Integers, edge_weight: Floats, n: int) -> csr_array:
     return symmetric_matrix(edges, -edge_weight, n, edge_sums(edges, edge_weight, n))
 
 
-def _mass_matrix(domain: Mesh | Topology, stiffness: csr_array, kind: str) -> csr_array:
-    if kind == "degree":
-        return diagonal_matrix(stiffness.diagonal())
+def _weights_and_areas(
+    domain: Mesh | Topology, weights: str, mass: str
+) -> tuple[Floats, Floats | None]:
+    """Weigh the edges; cotangents and areas come out of one pass over the faces."""
+    if not isinstance(domain, Mesh) and mass not in ("degree", "unit"):
+        raise DimensionError(f"the {mass} mass needs the positions of the vertices: give a Mesh")
+    if isinstance(domain, Mesh) and weights == "cotangent" and mass in AREA_KINDS:
+        edge_weight, areas = accumulate(domain, True, AREA_KINDS[mass])
+        return read_only(edge_weight), areas
+    return read_only(weigh_edges(domain, weights)), None
+
+
+def _mass_matrix(
+    domain: Mesh | Topology, stiffness: csr_array, kind: str, areas: Floats | None
+) -> csr_array:
     if kind == "unit":
         return diagonal_matrix(np.ones(stiffness.shape[0]))
-    if not isinstance(domain, Mesh):
-        raise DimensionError(f"the {kind} mass needs the positions of the vertices: give a Mesh")
-    return (
-        consistent_mass(domain)
-        if kind == "consistent"
-        else diagonal_matrix(vertex_areas(domain, kind))
-    )
+    if kind == "degree" or not isinstance(domain, Mesh):
+        return diagonal_matrix(stiffness.diagonal())
+    if kind == "consistent":
+        return consistent_mass(domain)
+    return diagonal_matrix(vertex_areas(domain, kind) if areas is None else areas)
 
 
 def _of_graph(matrix: csr_array, weights: str | None, mass: str | None) -> Laplacian:

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats
-from beltrami._jit import kernel
 from beltrami.errors import DimensionError, MeshError, check_name
 from beltrami.mesh.edge_matrix import symmetric_matrix
-from beltrami.mesh.geometry import in_space
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
-from beltrami.operators.soundness import refuse_flat_faces, require_faces, require_positions
-from beltrami.operators.triangle import is_flat, measure
+from beltrami.operators.accumulate import NONE, accumulate
+from beltrami.operators.soundness import require_faces, require_positions
 
 WEIGHTS = ("combinatorial", "distance", "cotangent")
 
@@ -75,7 +71,7 @@ def weigh_edges(domain: Mesh | Topology, kind: str) -> Floats:
     if not isinstance(domain, Mesh):
         raise DimensionError(f"{kind} weights need the positions of the vertices: give a Mesh")
     require_positions(domain)
-    return _distance_weights(domain) if kind == "distance" else _cotangent_weights(domain)
+    return _distance_weights(domain) if kind == "distance" else accumulate(domain, True, NONE)[0]
 
 
 def _distance_weights(mesh: Mesh) -> Floats:
@@ -90,27 +86,3 @@ def _distance_weights(mesh: Mesh) -> Floats:
             "remove_degenerate_faces=True).",
         )
     return weights
-
-
-def _cotangent_weights(mesh: Mesh) -> Floats:
-    positions, corners = in_space(mesh.vertices, mesh.faces)
-    weights = np.zeros(mesh.topology.n_edges)
-    if _add_cotangents(positions, corners, mesh.topology.face_edges, weights):
-        refuse_flat_faces(mesh)
-    return weights
-
-
-@kernel
-def _add_cotangents(x: Any, corners: Any, face_edges: Any, weights: Any) -> int:
-    """Add half of each cotangent to the edge it faces; return the number of flat faces."""
-    flat = 0
-    for f in range(corners.shape[0]):
-        at_i, at_j, at_k, double = measure(x, corners[f, 0], corners[f, 1], corners[f, 2])
-        if is_flat(at_i, at_j, at_k, double):
-            flat += 1
-            continue
-        half = 0.5 / double
-        weights[face_edges[f, 0]] += at_i * half
-        weights[face_edges[f, 1]] += at_j * half
-        weights[face_edges[f, 2]] += at_k * half
-    return flat

@@ -1,0 +1,96 @@
+"""The command line: ``python -m benchmarks [row ...] [--quick]``."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from benchmarks.cases import cases
+from benchmarks.harness import Measured, Table, attempt, measure
+from benchmarks.memory import peak
+from benchmarks.report import goals, written
+from benchmarks.rows import ROWS
+
+REPORT = Path(__file__).parent.parent / "BENCHMARKS.md"
+QUICK_RUNS = 3
+
+
+def tell(text: str) -> None:
+    """Show the progress where it does not mix with the report."""
+    print(text, file=sys.stderr, flush=True)
+
+
+def with_memory(table: Table, folder: Path, quick: bool) -> Table:
+    """Measure the peak memory of everybody that ran, each in its own process."""
+
+    def measured(one: Measured) -> Measured:
+        if one.problem or one.contender.times_itself:
+            return one
+        held, problem = attempt(peak, table.row.name, table.case, one.contender.name, folder, quick)
+        return replace(one, memory=held, memory_problem=problem)
+
+    return replace(table, measured=tuple(map(measured, table.measured)))
+
+
+def run(asked: argparse.Namespace, folder: Path) -> list[Table]:
+    """Measure the rows that were asked for."""
+    tables = []
+    for row in ROWS:
+        if asked.rows and row.name not in asked.rows:
+            continue
+        for case in cases(row.size, folder, asked.quick):
+            tell(f"{row.name}, {case.name}")
+            table = measure(row, case, asked.runs or (QUICK_RUNS if asked.quick else row.runs))
+            if row.memory and not asked.no_memory:
+                table = with_memory(table, folder, asked.quick)
+            for one in table.measured:
+                tell(f"  {one.contender.name}: {one.problem or f'{one.median:.4f} s'}")
+            if table.problem:
+                tell(f"  {table.problem}")
+            tables.append(table)
+    return tables
+
+
+def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
+    """Read the command line."""
+    names = [row.name for row in ROWS]
+    parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
+    parser.add_argument("rows", nargs="*", metavar="row", help=f"all, or some of {names}")
+    parser.add_argument("--quick", action="store_true", help="one small mesh, three runs")
+    parser.add_argument("--runs", type=int, help="how often each contender runs")
+    parser.add_argument("--no-memory", action="store_true", help="do not measure the memory")
+    parser.add_argument("--output", type=Path, help=f"write the report there, not {REPORT.name}")
+    parser.add_argument("--folder", type=Path, help="keep the meshes and files there")
+    asked = parser.parse_args(arguments)
+    for name in asked.rows:
+        if name not in names:
+            parser.error(f"there is no row {name!r}: choose among {', '.join(names)}")
+    if asked.runs is not None and asked.runs < 1:
+        parser.error("--runs is at least 1")
+    return asked
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Measure and report; the report is written where all rows were measured in full."""
+    asked = parsed(arguments)
+    if asked.folder is not None:
+        asked.folder.mkdir(parents=True, exist_ok=True)
+        tables = run(asked, asked.folder)
+    else:
+        with TemporaryDirectory(prefix="beltrami_benchmarks_") as folder:
+            tables = run(asked, Path(folder))
+    text = written(tables)
+    target = asked.output
+    if target is None and not asked.rows and not asked.quick:
+        target = REPORT
+    if target is None:
+        print(text)
+        return 0
+    target.write_text(text)
+    print(goals(tables))
+    tell(f"written: {target}")
+    return 0

@@ -1,0 +1,21 @@
+"""The rows: one claim per file. A new row is a file here and its name in ``ROWS``."""
+
+from __future__ import annotations
+
+from benchmarks.claims import Row
+from benchmarks.rows.adjacency import ADJACENCY
+from benchmarks.rows.assembly import ASSEMBLY
+from benchmarks.rows.reading import READ_OBJ, READ_OFF, READ_PLY
+from benchmarks.rows.smoothing import SMOOTHING
+from benchmarks.rows.starting import FIRST_CALL, IMPORT
+
+ROWS: tuple[Row, ...] = (
+    ASSEMBLY,
+    SMOOTHING,
+    ADJACENCY,
+    READ_OBJ,
+    READ_OFF,
+    READ_PLY,
+    IMPORT,
+    FIRST_CALL,
+)

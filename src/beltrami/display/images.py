@@ -1,0 +1,52 @@
+"""Write a picture: the format by the suffix, the file whole or not at all."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+from PIL import Image as Pillow
+
+from beltrami.display.srgb import Image
+from beltrami.errors import check_name
+from beltrami.io.atomic import replacing
+
+# Nothing is lost, but in GIF, which has 256 colours.
+_OPTIONS: dict[str, tuple[str, dict[str, Any]]] = {
+    ".png": ("PNG", {"optimize": False, "compress_level": 6}),
+    ".webp": ("WEBP", {"lossless": True, "quality": 80}),
+    ".gif": ("GIF", {}),
+}
+SUFFIXES = tuple(_OPTIONS)
+
+
+def check_suffix(path: str | os.PathLike[str]) -> str:
+    """Return the suffix, in small letters, if pictures can be written in that format.
+
+    Raises
+    ------
+    UnknownNameError
+        If they cannot.
+
+    Examples
+    --------
+    >>> check_suffix("bunny.PNG")
+    '.png'
+    """
+    return check_name("suffix of a picture", Path(path).suffix.lower(), SUFFIXES)
+
+
+def write_image(path: str | os.PathLike[str], image: Image) -> None:
+    """Write an (h, w, 3) uint8 picture as PNG, WebP or GIF.
+
+    A picture that was there before stays whole if anything fails.
+
+    Raises
+    ------
+    UnknownNameError
+        If the suffix is not ``.png``, ``.webp`` or ``.gif``.
+    """
+    name, options = _OPTIONS[check_suffix(path)]
+    with replacing(path) as file:
+        Pillow.fromarray(image).save(file, format=name, **options)

@@ -1,0 +1,1 @@
+"""Files in, files out: meshes by suffix, functions on their vertices."""

@@ -1,0 +1,134 @@
+"""Formats read and written by other packages: GIFTI, FreeSurfer, glTF, VTK and others."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from beltrami._arrays import Floats
+from beltrami._optional import require
+from beltrami.errors import FileFormatError, MissingExtraError
+from beltrami.io.faces import fan, first_outside
+from beltrami.mesh.mesh import Mesh
+
+_MESHIO = (".vtk", ".vtu", ".msh", ".mesh", ".inp")
+_TRIMESH = (".glb", ".gltf")
+_FREESURFER = (".pial", ".white", ".inflated", ".sphere", ".orig", ".smoothwm")
+
+
+def read(path: str | os.PathLike[str], suffix: str) -> Mesh:
+    """Read a mesh through the package for this suffix.
+
+    Raises
+    ------
+    FileFormatError
+        If the package cannot read the file, or what it read is no mesh of finite numbers.
+    MissingExtraError
+        If the package is not installed.
+    """
+    place = Path(path)
+    if place.is_dir():
+        raise FileFormatError(place, "expected a file, found a directory. Name a file in it")
+    place.open("rb").close()  # FileNotFoundError says more than the packages do
+    try:
+        vertices, faces, data = READERS[suffix](place)
+    except (FileFormatError, MissingExtraError):
+        raise
+    except (Exception, SystemExit) as cause:  # the packages raise anything on a broken file
+        reason = f"{type(cause).__name__}: {cause}"
+        raise FileFormatError(place, f"expected a {suffix} file ({reason})") from cause
+    return _checked(place, np.asarray(vertices, np.float64), np.asarray(faces), data)
+
+
+def _checked(place: Path, vertices: Any, faces: Any, data: dict[str, Any]) -> Mesh:
+    if vertices.ndim != 2 or len(vertices) == 0 or len(faces) == 0:
+        raise FileFormatError(place, "expected vertices and triangles or polygons, found none")
+    if not np.isfinite(vertices).all():
+        row = int(np.flatnonzero(~np.isfinite(vertices).all(axis=1))[0])
+        raise FileFormatError(place, f"expected finite coordinates, found NaN in vertex {row}")
+    corners = faces.astype(np.int64).reshape(-1, 3)
+    outside = int(first_outside(corners.ravel(), len(vertices)))
+    if outside >= 0:
+        raise FileFormatError(place, f"expected indices of vertices in triangle {outside // 3}")
+    kept = {name: a for name, a in data.items() if a.dtype.kind in "biuf" and a.ndim in (1, 2)}
+    return Mesh(vertices, corners, {name: a for name, a in kept.items() if len(a) == len(vertices)})
+
+
+def _read_gifti(place: Path) -> Any:
+    nibabel = require("nibabel", "io", "reading GIFTI")
+    points, triangles = nibabel.load(place).agg_data(("pointset", "triangle"))
+    return points, triangles, {}
+
+
+def _read_freesurfer(place: Path) -> Any:
+    freesurfer = require("nibabel.freesurfer", "io", "reading FreeSurfer surfaces")
+    return (*freesurfer.read_geometry(place), {})
+
+
+def _read_meshio(place: Path) -> Any:
+    meshio = require("meshio", "io", f"reading {place.suffix}")
+    found = meshio.read(place)
+    blocks = [b.data for b in found.cells if b.type in ("triangle", "quad", "polygon")]
+    pieces = [
+        fan(np.concatenate(b).astype(np.int64), np.array([len(c) for c in b])) for b in blocks
+    ]
+    faces = np.concatenate(pieces) if pieces else np.zeros((0, 3), np.int64)
+    return found.points, faces, found.point_data
+
+
+def _read_trimesh(place: Path) -> Any:
+    trimesh = require("trimesh", "io", f"reading {place.suffix}")
+    scene = trimesh.load_scene(place, process=False)
+    whole = scene.to_mesh()
+    return whole.vertices, whole.faces, {}
+
+
+def encode(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
+    """Return the bytes of a file of this format."""
+    return WRITERS[suffix](mesh, vertices, suffix)
+
+
+def _encode_gifti(mesh: Mesh, vertices: Floats, _suffix: str) -> bytes:
+    gifti = require("nibabel.gifti", "io", "writing GIFTI")
+    points = gifti.GiftiDataArray(
+        vertices.astype(np.float32), intent="NIFTI_INTENT_POINTSET", datatype="NIFTI_TYPE_FLOAT32"
+    )
+    triangles = gifti.GiftiDataArray(
+        mesh.faces.astype(np.int32), intent="NIFTI_INTENT_TRIANGLE", datatype="NIFTI_TYPE_INT32"
+    )
+    return bytes(gifti.GiftiImage(darrays=[points, triangles]).to_bytes())
+
+
+def _encode_meshio(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
+    meshio = require("meshio", "io", f"writing {suffix}")
+    data = {name: array for name, array in mesh.vertex_data.items() if array.dtype.kind in "iuf"}
+    found = meshio.Mesh(np.array(vertices), [("triangle", np.array(mesh.faces))], point_data=data)
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder, "mesh" + suffix)
+        found.write(place)
+        return place.read_bytes()
+
+
+def _encode_trimesh(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
+    trimesh = require("trimesh", "io", f"writing {suffix}")
+    whole = trimesh.Trimesh(np.array(vertices), np.array(mesh.faces), process=False)
+    return bytes(whole.export(file_type=suffix[1:]))
+
+
+READERS: dict[str, Callable[[Path], Any]] = {
+    ".gii": _read_gifti,
+    **dict.fromkeys(_FREESURFER, _read_freesurfer),
+    **dict.fromkeys(_MESHIO, _read_meshio),
+    **dict.fromkeys(_TRIMESH, _read_trimesh),
+}
+WRITERS: dict[str, Callable[[Mesh, Floats, str], bytes]] = {
+    ".gii": _encode_gifti,
+    ".vtk": _encode_meshio,
+    ".vtu": _encode_meshio,
+    ".glb": _encode_trimesh,
+}

@@ -1,0 +1,125 @@
+"""read_function: the values of a function on the vertices of a mesh."""
+
+from __future__ import annotations
+
+import gzip
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from beltrami._arrays import Floats
+from beltrami._optional import require
+from beltrami.errors import FileFormatError, MissingExtraError, check_name
+from beltrami.io.registry import READERS, read_mesh, suffix_of
+from beltrami.io.source import load
+from beltrami.io.table import read_table
+
+_TEXT = (".txt", ".csv", ".dat", ".tsv")
+
+
+def read_function(path: str | os.PathLike[str], name: str | None = None) -> Floats:
+    r"""Read a function on the vertices, one row for each: (n,) or (n, c) float64.
+
+    Parameters
+    ----------
+    path
+        ``.npy``; text columns ``.txt``, ``.csv``, ``.tsv``, ``.dat``; a mesh with vertex data,
+        such as ``.ply``; through the extra ``io`` GIFTI ``.gii`` and FreeSurfer (``.curv``,
+        ``.sulc``, ``.thickness``, ``.area``, ``.mgh``, ``.mgz``).
+    name
+        Which vertex data of a mesh, or which column of a text file whose first line names them;
+        not needed where there is only one.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    UnknownNameError
+        If the suffix, or the name, does not exist; it lists those that do.
+    FileFormatError
+        If the file is not what its format promises, or a value is not finite.
+    MissingExtraError
+        If the format needs a package that is not installed.
+
+    Examples
+    --------
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     place = pathlib.Path(folder, "f.txt")
+    ...     _ = place.write_text("0.5\n1.5\n")
+    ...     read_function(place).tolist()
+    [0.5, 1.5]
+    """
+    suffix = suffix_of(path, None, (".npy", *_TEXT, *READERS, *_OTHERS))
+    place = Path(path)
+    if suffix in _TEXT:
+        return read_table(load(place), name)
+    if suffix in READERS:
+        data = read_mesh(place).vertex_data
+        if name is None and len(data) == 1:
+            name = next(iter(data))
+        values = data[check_name("vertex data", name, tuple(data))]
+    else:
+        if place.is_dir():
+            raise FileFormatError(place, "expected a file, found a directory. Name a file in it")
+        place.open("rb").close()  # FileNotFoundError says more than the packages do
+        values = _foreign(place, suffix)
+    return _checked(place, values)
+
+
+def _foreign(place: Path, suffix: str) -> Any:
+    try:
+        return np.load(place, allow_pickle=False) if suffix == ".npy" else _OTHERS[suffix](place)
+    except MissingExtraError:
+        raise
+    except Exception as cause:  # the packages raise anything on a broken file
+        reason = f"{type(cause).__name__}: {cause}"
+        raise FileFormatError(place, f"expected a {suffix} file ({reason})") from cause
+
+
+def _checked(place: Path, values: Any) -> Floats:
+    if not isinstance(values, np.ndarray) or values.dtype.kind not in "biuf":
+        raise FileFormatError(place, "expected an array of real numbers")
+    if values.ndim not in (1, 2) or values.size == 0:
+        raise FileFormatError(place, f"expected the shape (n,) or (n, c), found {values.shape}")
+    result = np.ascontiguousarray(values, dtype=np.float64)
+    finite = np.isfinite(result)
+    if not finite.all():
+        row = int(np.argwhere(~finite)[0, 0])
+        raise FileFormatError(place, f"expected finite values, found NaN or infinity in row {row}")
+    return result
+
+
+def _read_gifti(place: Path) -> Any:
+    nibabel = require("nibabel", "io", "reading GIFTI")
+    geometry = {"NIFTI_INTENT_POINTSET", "NIFTI_INTENT_TRIANGLE"}
+    codes = {nibabel.nifti1.intent_codes[name] for name in geometry}
+    arrays = [a.data for a in nibabel.load(place).darrays if a.intent not in codes]
+    if not arrays:
+        raise FileFormatError(place, "expected an array of values, found only geometry")
+    return arrays[0] if len(arrays) == 1 else np.stack(arrays, axis=1)
+
+
+def _read_morphometry(place: Path) -> Any:
+    freesurfer = require("nibabel.freesurfer", "io", "reading FreeSurfer data")
+    return freesurfer.read_morph_data(place)
+
+
+def _read_mgh(place: Path) -> Any:
+    nibabel = require("nibabel", "io", "reading FreeSurfer volumes")
+    content = place.read_bytes()
+    if content.startswith(b"\x1f\x8b"):  # .mgz
+        content = gzip.decompress(content)
+    values = np.asarray(nibabel.MGHImage.from_bytes(content).dataobj)
+    rows = values.reshape(len(values), -1)  # (n, 1, 1) or (n, 1, 1, frames)
+    return rows[:, 0] if rows.shape[1] == 1 else rows
+
+
+_OTHERS: dict[str, Callable[[Path], Any]] = {
+    ".gii": _read_gifti,
+    **dict.fromkeys((".curv", ".sulc", ".thickness", ".area"), _read_morphometry),
+    **dict.fromkeys((".mgh", ".mgz"), _read_mgh),
+}

@@ -1,0 +1,181 @@
+"""The rows of a binary PLY element."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beltrami._arrays import Integers
+from beltrami._jit import kernel
+from beltrami.io.ply_header import Element, Property
+from beltrami.io.source import Source
+
+
+def read_binary(
+    source: Source, start: int, element: Element, order: str, wanted: str | None
+) -> tuple[dict[str, NDArray[Any]], tuple[Integers, Integers] | None, int]:
+    """Read the rows of an element: scalars by name, one list (values, lengths), the position.
+
+    Raises
+    ------
+    FileFormatError
+        With the byte, where the file ends too early or a list has a negative length.
+    """
+    if not element.properties:
+        return {}, None, start
+    names = [p.name for p in element.properties]
+    which = names.index(wanted) if wanted in names else -1
+    if not any(p.length for p in element.properties):
+        table = _table(element.properties, [], order)
+        rows = np.frombuffer(source.data, table, element.rows, start)
+        scalars = {p.name: rows[f"p{i}"] for i, p in enumerate(element.properties)}
+        return scalars, None, start + rows.nbytes
+    regular = _regular(source, start, element, order)
+    if regular is not None:
+        rows = regular
+        scalars = {
+            p.name: rows[f"p{i}"] for i, p in enumerate(element.properties) if p.length is None
+        }
+        found = None
+        if which >= 0:
+            values = rows[f"p{which}"].reshape(len(rows), -1)
+            found = values.astype(np.int64).ravel(), np.full(len(rows), values.shape[1])
+        return scalars, found, start + rows.nbytes
+    return _read_irregular(source, start, element, order, which)
+
+
+def _table(properties: list[Property], lengths: list[int], order: str) -> np.dtype[Any]:
+    """Lay out a row whose lists have these lengths; fields are named by their place."""
+    fields: list[Any] = []
+    left = list(lengths)
+    for i, p in enumerate(properties):
+        if p.length is None:
+            fields.append((f"p{i}", order + p.type))
+        else:
+            fields += [(f"c{i}", order + p.length), (f"p{i}", order + p.type, (left.pop(0),))]
+    return np.dtype(fields)
+
+
+def _regular(source: Source, start: int, element: Element, order: str) -> NDArray[Any] | None:
+    """View the rows as a table if every list is as long as in the first row."""
+    lengths: list[int] = []
+    p = start
+    for field in element.properties:
+        if field.length is None:
+            p += np.dtype(field.type).itemsize
+            continue
+        kind = np.dtype(order + field.length)
+        if p + kind.itemsize > len(source.data) or element.rows == 0:
+            return None
+        length = int(np.frombuffer(source.data, kind, 1, p)[0])
+        if not 0 <= length <= len(source.data):
+            return None
+        lengths.append(length)
+        p += kind.itemsize + length * np.dtype(field.type).itemsize
+    if element.rows * (p - start) > len(source.data) - start:
+        return None
+    rows = np.frombuffer(
+        source.data, _table(element.properties, lengths, order), element.rows, start
+    )
+    left = iter(lengths)
+    for i, field in enumerate(element.properties):
+        if field.length is not None and (rows[f"c{i}"] != next(left)).any():
+            return None
+    return rows
+
+
+def _read_irregular(
+    source: Source, start: int, element: Element, order: str, which: int
+) -> tuple[dict[str, NDArray[Any]], tuple[Integers, Integers] | None, int]:
+    properties = element.properties
+    sizes = np.array([np.dtype(p.type).itemsize for p in properties])
+    counts = np.array(
+        [np.dtype(p.length or "i1").itemsize * (p.length is not None) for p in properties]
+    )
+    signed = np.array([p.length is not None and p.length[0] == "i" for p in properties])
+    places = np.empty((element.rows, len(properties)), np.int64)
+    big = order == ">"
+    end, row = _walk(source.data, start, sizes, counts, signed, big, places)
+    if row < element.rows:
+        raise source.at_byte(
+            end,
+            f"expected row {row + 1} of {element.rows} of the element {element.name!r}, found a "
+            "negative length of a list or the end of the file",
+        )
+    scalars: dict[str, NDArray[Any]] = {}
+    for i, p in enumerate(properties):
+        if p.length is None:
+            kind = np.dtype(order + p.type)
+            raw = source.data[places[:, i, None] + np.arange(kind.itemsize)]
+            scalars[p.name] = np.ascontiguousarray(raw).view(kind)[:, 0]
+    if which < 0 or not counts[which]:
+        return scalars, None, end
+    kind_signed = properties[which].type[0] == "i"
+    count = (int(counts[which]), bool(signed[which]))
+    lengths, total = _lengths(source.data, places[:, which], *count, big)
+    values = np.empty(total, np.int64)
+    first = places[:, which] + count[0]
+    _gather(source.data, first, lengths, int(sizes[which]), kind_signed, big, values)
+    return scalars, (values, lengths), end
+
+
+@kernel
+def load_integer(b: Any, p: int, size: int, signed: bool, big: bool) -> int:
+    """Return the integer of ``size`` bytes at p; four bytes at most.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> bytes_ = np.array([255, 254], np.uint8)
+    >>> load_integer(bytes_, 0, 2, True, True), load_integer(bytes_, 0, 2, False, False)
+    (-2, 65279)
+    """
+    value: Any = 0
+    for i in range(size):
+        value = 256 * value + np.int64(b[p + i if big else p + size - 1 - i])
+    if signed and value >= 1 << (8 * size - 1):
+        value -= 1 << (8 * size)
+    return value
+
+
+@kernel
+def _walk(b: Any, p: int, sizes: Any, counts: Any, signed: Any, big: bool, places: Any) -> Any:
+    """Note where each property of each row stands: (position, complete rows)."""
+    end = b.size
+    for row in range(places.shape[0]):
+        start = p
+        for k in range(sizes.size):
+            places[row, k] = p
+            length = 1
+            if counts[k]:
+                if counts[k] > end - p:
+                    return start, row
+                length = load_integer(b, p, counts[k], signed[k], big)
+                p += counts[k]
+            if length < 0 or length * sizes[k] > end - p:
+                return start, row
+            p += length * sizes[k]
+    return p, places.shape[0]
+
+
+@kernel
+def _lengths(b: Any, places: Any, size: int, signed: bool, big: bool) -> Any:
+    lengths = np.empty(places.size, np.int64)
+    total = 0
+    for row in range(places.size):
+        lengths[row] = load_integer(b, places[row], size, signed, big)
+        total += lengths[row]
+    return lengths, total
+
+
+@kernel
+def _gather(
+    b: Any, places: Any, lengths: Any, size: int, signed: bool, big: bool, values: Any
+) -> None:
+    k = 0
+    for row in range(places.size):
+        for i in range(lengths[row]):
+            values[k] = load_integer(b, places[row] + i * size, size, signed, big)
+            k += 1

@@ -1,0 +1,179 @@
+"""read_mesh and write_mesh: the format is told by the suffix."""
+
+from __future__ import annotations
+
+import gzip
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from beltrami._arrays import Floats, require_finite
+from beltrami.errors import DimensionError, EmptyMeshError, check_name
+from beltrami.io import extras
+from beltrami.io.atomic import replacing
+from beltrami.io.obj import read_obj
+from beltrami.io.obj_write import write_obj
+from beltrami.io.off import read_off
+from beltrami.io.off_write import write_off
+from beltrami.io.ply import read_ply
+from beltrami.io.ply_write import write_ply
+from beltrami.io.source import Source, load
+from beltrami.io.stl import read_stl, write_stl
+from beltrami.mesh.mesh import Mesh
+
+READERS: dict[str, Callable[[Source], Mesh]] = {
+    ".obj": read_obj,
+    ".off": read_off,
+    ".ply": read_ply,
+    ".stl": read_stl,
+}
+WRITERS: dict[str, Callable[[IO[bytes], Mesh, Floats], None]] = {
+    ".obj": write_obj,
+    ".off": write_off,
+    ".ply": write_ply,
+    ".stl": write_stl,
+}
+_FLOAT32_MAX = float(np.finfo(np.float32).max)
+
+
+def read_mesh(path: str | os.PathLike[str], format: str | None = None) -> Mesh:  # noqa: A002 - the public name
+    r"""Read a triangle mesh from a file.
+
+    OBJ, OFF, PLY and STL are read here, checked byte by byte; the extra ``io`` adds GIFTI,
+    FreeSurfer, glTF, VTK and others. Any of them may be compressed, as in ``mesh.obj.gz``.
+    Polygons are cut into triangles from their first corner. The vertices stay in the order of
+    the file, and nothing is merged, except in STL, where exactly equal corners are one vertex.
+
+    Parameters
+    ----------
+    path
+        The file.
+    format
+        A suffix such as ``".obj"`` where the name of the file does not tell; upper case, or the
+        dot left out, make no difference.
+
+    Returns
+    -------
+    Mesh
+        With ``vertex_data`` (PLY, COFF, NOFF, coloured OBJ) and ``corner_uv`` (OBJ).
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    UnknownNameError
+        If the suffix is not known; it lists those that are.
+    FileFormatError
+        If the file is not what its format promises; it names the line or the byte.
+    MissingExtraError
+        If the format needs a package that is not installed.
+
+    Examples
+    --------
+    >>> import tempfile, pathlib
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     place = pathlib.Path(folder, "triangle.off")
+    ...     _ = place.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    ...     read_mesh(place).faces.tolist()
+    [[0, 1, 2]]
+    """
+    suffix = suffix_of(path, format, (*READERS, *extras.READERS))
+    if suffix in READERS:
+        return READERS[suffix](load(path))
+    return extras.read(path, suffix)
+
+
+def write_mesh(path: str | os.PathLike[str], mesh: Mesh, uv: ArrayLike | None = None) -> None:
+    """Write a mesh to a file: wholly, or on any error or interrupt not at all.
+
+    What a format cannot hold is left out: OBJ keeps coordinates, texture coordinates and the
+    vertex data "color"; OFF coordinates, "color" and "normal"; PLY coordinates and all numeric
+    vertex data, with their types; STL only coordinates, rounded to 32 bits. Everything else
+    reads back bit for bit. A flat mesh (d = 2) is written with z = 0.
+
+    Parameters
+    ----------
+    path
+        The file; its suffix is the format, ``.gz`` after it compresses.
+    mesh
+        The mesh, finite and with faces: what is written can be read.
+    uv
+        Texture coordinates (n, 2), or (m, 3, 2) for each corner, instead of ``mesh.corner_uv``:
+        only for OBJ.
+
+    Raises
+    ------
+    UnknownNameError
+        If the suffix is not known, or cannot hold ``uv``.
+    DimensionError
+        If the vertices have more than three coordinates, or ``uv`` another shape.
+    EmptyMeshError
+        If there are no faces.
+    NonFiniteError
+        If a coordinate is NaN or infinite, or too large for STL.
+
+    Examples
+    --------
+    >>> import tempfile, pathlib
+    >>> mesh = Mesh([[0.1, 0], [1, 0], [0, 1]], [[0, 1, 2]])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_mesh(pathlib.Path(folder, "flat.ply"), mesh)
+    ...     read_mesh(pathlib.Path(folder, "flat.ply")).vertices[0].tolist()
+    [0.1, 0.0, 0.0]
+    """
+    suffix = suffix_of(path, None, (*WRITERS, *extras.WRITERS))
+    vertices = _writable(mesh, suffix)
+    if uv is not None:
+        check_name("format for texture coordinates", suffix, (".obj",))
+    with replacing(path) as whole:
+        if suffix in extras.WRITERS:
+            whole.write(extras.encode(mesh, vertices, suffix))
+        elif Path(path).suffix.lower() == ".gz":
+            with gzip.GzipFile("", "wb", fileobj=whole, mtime=0) as file:
+                _write(file, mesh, vertices, suffix, uv)
+        else:
+            _write(whole, mesh, vertices, suffix, uv)
+
+
+def suffix_of(path: str | os.PathLike[str], form: str | None, known: tuple[str, ...]) -> str:
+    """Return the suffix in lower case, without ``.gz``, if it is known.
+
+    Examples
+    --------
+    >>> suffix_of("a.OBJ.gz", None, (".obj",)), suffix_of("a", "obj", (".obj",))
+    ('.obj', '.obj')
+    """
+    if form is not None:
+        return check_name("format", "." + form.lower().lstrip("."), known)
+    place = Path(os.fspath(path).lower())
+    if place.suffix == ".gz":
+        place = place.with_suffix("")
+    return check_name("file format", place.suffix, known)
+
+
+def _write(file: Any, mesh: Mesh, vertices: Floats, suffix: str, uv: ArrayLike | None) -> None:
+    if uv is not None:
+        write_obj(file, mesh, vertices, np.asarray(uv, dtype=np.float64))
+    else:
+        WRITERS[suffix](file, mesh, vertices)
+
+
+def _writable(mesh: Mesh, suffix: str) -> Floats:
+    """Return the vertices as (n, 3), checked."""
+    n, d = mesh.vertices.shape
+    if d > 3:
+        raise DimensionError(
+            f"the vertices have {d} coordinates, and a file holds 3",
+            remedy="Choose three of them with mesh.with_vertices(mesh.vertices[:, :3]).",
+        )
+    if mesh.n_faces == 0:
+        raise EmptyMeshError("a mesh without faces cannot be written", remedy="Add faces.")
+    require_finite(mesh.vertices, "the coordinates")
+    if suffix == ".stl":
+        small = np.where(np.abs(mesh.vertices) <= _FLOAT32_MAX, mesh.vertices, np.inf)
+        require_finite(small, "the coordinates, rounded to the 32 bits of STL,")
+    return mesh.vertices if d == 3 else np.hstack([mesh.vertices, np.zeros((n, 3 - d))])

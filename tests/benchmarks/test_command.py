@@ -1,0 +1,75 @@
+"""The command line: which rows, and where the report goes."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+from benchmarks.claims import Contender, Goal, Row
+from benchmarks.threads import VARIABLES, one_thread
+
+from benchmarks import command
+
+
+def row(name: str) -> Row:
+    def contenders(_: object) -> list[Contender]:
+        return [
+            Contender("beltrami", lambda _: 1.0, ours=True, times_itself=True),
+            Contender("peer", lambda _: 4.0, times_itself=True),
+        ]
+
+    return Row(name, f"the work of {name}", contenders, (Goal(0.5),), size=0)
+
+
+@pytest.fixture(autouse=True)
+def report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setattr(command, "ROWS", (row("first"), row("second")))
+    monkeypatch.setattr(command, "REPORT", tmp_path / "BENCHMARKS.md")
+    return tmp_path / "BENCHMARKS.md"
+
+
+def test_full_run_writes_the_report(report: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert command.main([]) == 0
+    text = report.read_text()
+    assert "the work of first | no mesh | beltrami 1.0000 s | peer 4.0000 s | 0.250 x" in text
+    assert "the work of second" in text
+    assert "0.250 x" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("arguments", [["second"], ["--quick"]])
+def test_part_of_a_run_is_printed_and_leaves_the_report(
+    arguments: list[str], report: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert command.main(arguments) == 0
+    assert not report.exists()
+    printed = capsys.readouterr().out
+    assert "### second: no mesh" in printed
+    assert ("### first" in printed) == (arguments == ["--quick"])
+
+
+def test_output_and_runs(tmp_path: Path) -> None:
+    target = tmp_path / "part.md"
+    folder = tmp_path / "kept"
+    command.main(["first", "--runs", "2", "--output", str(target), "--folder", str(folder)])
+    assert "; 2 runs." in target.read_text()
+    assert (folder / "no_mesh.npz").exists()
+
+
+@pytest.mark.parametrize("arguments", [["third"], ["--runs", "0"]])
+def test_wrong_usage(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stopped:
+        command.main(arguments)
+    assert stopped.value.code == 2
+    assert "first, second" in capsys.readouterr().err or arguments[0] == "--runs"
+
+
+def test_threads_are_limited_before_numpy_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in VARIABLES:
+        monkeypatch.setenv(name, "3")
+    with pytest.raises(RuntimeError, match="numpy"):
+        one_thread()
+    monkeypatch.delitem(sys.modules, "numpy")
+    one_thread()
+    assert all(os.environ[name] == "1" for name in VARIABLES)

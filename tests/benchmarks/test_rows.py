@@ -1,0 +1,104 @@
+"""The rows: their goals name contenders that exist, and their comparisons see a difference."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from benchmarks.cases import Case
+from benchmarks.claims import BEST_PEER, Row
+from benchmarks.rows import ROWS, adjacency, assembly, reading, smoothing
+from scipy.sparse import csc_array, csr_array, diags_array
+
+V = np.array([[0.0, 0, 0], [1.25, 0, 0], [0, -1.5, 0], [0, 0, 1e-3]])
+F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+
+
+def tetrahedron(folder: Path) -> Case:
+    return Case("tetrahedron", folder, lambda: (V, F))
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.name)
+def test_goals_name_contenders(row: Row, tmp_path: Path) -> None:
+    contenders = row.contenders(tetrahedron(tmp_path))
+    names = [one.name for one in contenders]
+    assert len(set(names)) == len(names)
+    ours = [one.name for one in contenders if one.ours]
+    for goal in row.goals:
+        assert goal.of in ours
+        assert goal.against in (None, BEST_PEER, *names)
+
+
+def test_names_of_rows_are_unique() -> None:
+    names = [row.name for row in ROWS]
+    assert len(set(names)) == len(names)
+
+
+def test_assembly_compares_whatever_the_sign_and_the_format() -> None:
+    L = csr_array([[2.0, -2.0], [-2.0, 2.0]])
+    B = np.array([3.0, 4.0])
+    ours = assembly.positive((L, diags_array(B)))
+    assert assembly.difference(ours, assembly.positive((-csc_array(L), B))) == 0
+    wrong = L.copy()
+    wrong.data[1] = -1.0
+    assert assembly.difference(ours, assembly.positive((wrong, B))) == 0.5
+    assert assembly.difference(ours, assembly.positive((L, B * [1, 1.25]))) == 0.25
+
+
+def test_adjacency_compares_edges_as_sets() -> None:
+    edges = np.array([[0, 1], [0, 2], [1, 2]])
+    turned = adjacency.sorted_pairs(np.array([[2, 1], [1, 0], [2, 0]]))
+    assert adjacency.difference(edges, turned) == 0
+    assert adjacency.difference(edges, np.array([[0, 1], [0, 3], [1, 2]])) == 1
+    assert adjacency.difference(edges, edges[:2]) == np.inf
+
+
+def test_smoothing_averages_over_the_neighbours() -> None:
+    pyramids = np.array([[0, 1, 3], [1, 2, 3], [2, 0, 3], [1, 0, 4], [2, 1, 4], [0, 2, 4]])
+    A = 1 - np.eye(5)
+    A[3, 4] = A[4, 3] = 0  # the two tips, of degree 3; the others have degree 4
+    W = smoothing.averaging(pyramids, 5)
+    np.testing.assert_allclose(W.toarray(), A / A.sum(axis=1, keepdims=True))
+    assert smoothing.difference(V, V) == 0
+    assert smoothing.difference(V, V + np.array([0, 0.15, 0])) == pytest.approx(0.1)  # of 1.5
+
+
+def test_smoothing_floor_grows_with_the_mesh(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ticks = iter([0.0, 3.0])  # three copies of twice 128 MiB in three seconds
+    monkeypatch.setattr(time, "process_time", lambda: next(ticks))
+    moved = 50 * (4 * 12 + 4 * 4 + 2 * 96)
+    assert smoothing.floor_seconds(tetrahedron(tmp_path)) == pytest.approx(moved / 2**28)
+
+
+def test_text_files_say_what_the_arrays_say(tmp_path: Path) -> None:
+    reading.write_obj(tmp_path / "a.obj", V, F)
+    lines = (tmp_path / "a.obj").read_text().splitlines()
+    assert lines[1] == "v 1.25 0 0"
+    assert lines[4:6] == ["f 1 3 2", "f 1 2 4"]
+    reading.write_off(tmp_path / "a.off", V, F)
+    lines = (tmp_path / "a.off").read_text().splitlines()
+    assert lines[:3] == ["OFF", "4 4 0", "0 0 0"]
+    assert lines[5:] == ["0 0 0.001", "3 0 2 1", "3 0 1 3", "3 1 2 3", "3 2 0 3"]
+
+
+def test_ply_file_says_what_the_arrays_say(tmp_path: Path) -> None:
+    reading.write_ply(tmp_path / "a.ply", V, F)
+    head, _, body = (tmp_path / "a.ply").read_bytes().partition(b"end_header\n")
+    assert b"element vertex 4\n" in head
+    assert b"element face 4\n" in head
+    assert len(body) == 4 * 12 + 4 * 13
+    np.testing.assert_array_equal(np.frombuffer(body, "<f4", 12).reshape(4, 3), V.astype("f4"))
+    assert body[48:61] == b"\x03" + np.array([0, 2, 1], "<i4").tobytes()
+
+
+def test_reading_sees_a_wrong_number_and_a_wrong_face() -> None:
+    assert reading.difference((V, F), (V.astype(np.float32), F.astype(np.int32))) < 1e-7
+    assert reading.difference((V, F), (V + np.array([0.15, 0, 0]), F)) == pytest.approx(
+        0.1
+    )  # of 1.5
+    assert reading.difference((V, F), (V, F[::-1])) == np.inf
+    assert reading.difference((V, F), (V[:3], F)) == np.inf

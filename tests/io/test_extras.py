@@ -1,0 +1,63 @@
+"""Formats of other packages: round trips and broken files."""
+
+from __future__ import annotations
+
+import gzip
+
+import numpy as np
+import pytest
+
+from beltrami.errors import FileFormatError, MissingExtraError
+from beltrami.io import extras
+from beltrami.io.registry import read_mesh, write_mesh
+from beltrami.mesh.mesh import Mesh
+
+FACES = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+POINTS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0.5]]
+
+
+@pytest.mark.parametrize("suffix", extras.WRITERS)
+def test_round_trip(tmp_path, suffix):
+    pytest.importorskip({".gii": "nibabel", ".glb": "trimesh"}.get(suffix, "meshio"))
+    write_mesh(tmp_path / f"a{suffix}", Mesh(POINTS, FACES, {"f": np.arange(4.0)}))
+    again = read_mesh(tmp_path / f"a{suffix}")
+    assert np.array_equal(again.vertices, POINTS)
+    assert again.faces.tolist() == FACES
+    if suffix in (".vtk", ".vtu"):
+        assert again.vertex_data["f"].tolist() == [0, 1, 2, 3]
+
+
+def test_compressed_gifti(tmp_path):
+    pytest.importorskip("nibabel")
+    write_mesh(tmp_path / "a.gii", Mesh(POINTS, FACES))
+    (tmp_path / "b.gii.gz").write_bytes(gzip.compress((tmp_path / "a.gii").read_bytes()))
+    assert read_mesh(tmp_path / "b.gii.gz").faces.tolist() == FACES
+
+
+def test_freesurfer(tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    nibabel.freesurfer.write_geometry(tmp_path / "lh.pial", np.array(POINTS), np.array(FACES))
+    assert read_mesh(tmp_path / "lh.pial").faces.tolist() == FACES
+
+
+def test_polygons(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    points = np.array(POINTS)
+    meshio.Mesh(points, [("quad", [[0, 1, 2, 3]]), ("line", [[0, 1]])]).write(tmp_path / "a.vtk")
+    assert read_mesh(tmp_path / "a.vtk").faces.tolist() == [[0, 1, 2], [0, 2, 3]]
+
+
+@pytest.mark.parametrize("suffix", [".gii", ".vtk", ".vtu", ".glb", ".msh", ".pial", ".gii.gz"])
+def test_broken_files(put, suffix):
+    for content in (b"", b"no such file at all", b"\x1f\x8b" + b"\0" * 50):
+        with pytest.raises(FileFormatError):
+            read_mesh(put(f"a{suffix}", content))
+
+
+def test_missing_package(put, monkeypatch):
+    def absent(package, extra, purpose):
+        raise MissingExtraError(package, extra, purpose)
+
+    monkeypatch.setattr(extras, "require", absent)
+    with pytest.raises(MissingExtraError, match=r"beltrami\[io\]"):
+        read_mesh(put("a.gii", b"x"))

@@ -1,0 +1,101 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+from beltrami.mesh.half_edges import BOUNDARY, NOT_MANIFOLD, pair_sides
+from strategies import any_arrays
+
+
+def sides_of(faces):
+    """Each edge (i < j) with its sides (face, corner opposite, runs upwards), by a dictionary."""
+    found = {}
+    for f, face in enumerate(faces.tolist()):
+        if len(set(face)) == 3:
+            for c in range(3):
+                a, b = face[(c + 1) % 3], face[(c + 2) % 3]
+                found.setdefault((min(a, b), max(a, b)), []).append((f, c, a < b))
+    return dict(sorted(found.items()))
+
+
+def check(faces, n):
+    pairing = pair_sides(faces, n)
+    expected = sides_of(faces)
+    edges = list(expected)
+    face_edges = np.full(faces.shape, -1)
+    twins = np.full(faces.shape, BOUNDARY)
+    disoriented = 0
+    for e, sides in enumerate(expected.values()):
+        for k, (f, c, up) in enumerate(sides):
+            face_edges[f, c] = e
+            if len(sides) == 2:
+                g, d, other = sides[1 - k]
+                twins[f, c] = 3 * g + d
+                disoriented += up == other
+            elif len(sides) > 2:
+                twins[f, c] = NOT_MANIFOLD
+    assert pairing.edges.shape == (len(edges), 2)
+    assert list(map(tuple, pairing.edges.tolist())) == edges
+    assert np.array_equal(pairing.face_edges, face_edges)
+    assert np.array_equal(pairing.twins, twins)
+    assert pairing.edge_face_count.tolist() == [len(sides) for sides in expected.values()]
+    assert pairing.disoriented == disoriented / 2  # each such edge was met from both sides
+    assert pairing.complete == all(len(set(face)) == 3 for face in faces.tolist())
+
+
+@given(any_arrays())
+def test_sides_are_paired_as_a_dictionary_pairs_them(pair):
+    vertices, faces = pair
+    check(faces, len(vertices))
+
+
+@pytest.mark.heavy
+@settings(max_examples=5000, derandomize=False)
+@given(any_arrays())
+def test_sides_are_paired_as_a_dictionary_pairs_them_at_length(pair):
+    vertices, faces = pair
+    check(faces, len(vertices))
+
+
+def test_any_triples_of_few_vertices():
+    rng = np.random.default_rng(8123749817234)
+    for n in (1, 2, 3, 4, 6):
+        for m in (1, 2, 5, 40):
+            check(rng.integers(n, size=(m, 3)), n)
+
+
+def test_no_faces():
+    pairing = pair_sides(np.zeros((0, 3), np.int64), 5)
+    assert pairing.edges.shape == (0, 2)
+    assert pairing.twins.shape == pairing.face_edges.shape == (0, 3)
+    assert (pairing.disoriented, pairing.complete) == (0, True)
+
+
+def test_the_marks_differ():
+    assert (BOUNDARY, NOT_MANIFOLD) == (-1, -2)
+    fan = pair_sides(np.array([[0, 1, 2], [0, 1, 3], [0, 1, 4]]), 5)
+    assert fan.twins[:, 2].tolist() == [NOT_MANIFOLD] * 3
+    assert (fan.twins[:, :2] == BOUNDARY).all()
+    assert fan.edge_face_count.tolist() == [3, 1, 1, 1, 1, 1, 1]
+
+
+def test_disoriented_counts_edges_that_both_faces_run_through_alike():
+    same = pair_sides(np.array([[0, 1, 2], [0, 1, 3]]), 4)
+    opposite = pair_sides(np.array([[0, 1, 2], [1, 0, 3]]), 4)
+    assert (same.disoriented, opposite.disoriented) == (1, 0)
+
+
+def test_large_indices_do_not_collide():
+    n = 3_000_000
+    faces = np.array([[0, n - 1, n - 2], [n - 1, 0, 1]])
+    pairing = pair_sides(faces, n)
+    assert pairing.edges.tolist() == [
+        [0, 1], [0, n - 2], [0, n - 1], [1, n - 1], [n - 2, n - 1],
+    ]  # fmt: skip
+    assert pairing.twins.tolist() == [[-1, -1, 5], [-1, -1, 2]]
+
+
+def test_results_cannot_be_written_into():
+    pairing = pair_sides(np.array([[0, 1, 2]]), 3)
+    for array in pairing[:4]:
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 7
