@@ -49,8 +49,10 @@ def frozen(array: ArrayLike, dtype: DTypeLike) -> NDArray[Any]:
     (False, True)
     """
     given = rectangular(array)
-    result = np.ascontiguousarray(given, dtype=dtype).reshape(given.shape)
-    if np.shares_memory(result, given) and _can_change(given):
+    result = np.asarray(given, dtype=dtype, order="C")
+    if result is given or np.may_share_memory(result, given):
+        if not _can_change(given):
+            return result
         result = result.copy()
     return read_only(result)
 

@@ -76,8 +76,8 @@ class MeshError(BeltramiError, ValueError):
         remedy: str = "",
     ) -> None:
         self.problem = problem
-        self.vertices = np.asarray(vertices, dtype=np.int64)
-        self.faces = np.asarray(faces, dtype=np.int64)
+        self.vertices = np.asarray(vertices, dtype=np.int64).reshape(-1)
+        self.faces = np.asarray(faces, dtype=np.int64).reshape(-1)
         self.edges = np.asarray(edges, dtype=np.int64).reshape(-1, 2)
         self.remedy = remedy
         groups = (("vertices", self.vertices), ("faces", self.faces), ("edges", self.edges))

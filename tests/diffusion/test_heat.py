@@ -1,9 +1,8 @@
-import dense_oracles as oracle
 import numpy as np
 import pytest
-from meshes_of_the_errata import IRREGULAR, MESHES, triangle
 from scipy.linalg import expm
 
+import dense_oracles as oracle
 from beltrami.diffusion.heat import heat
 from beltrami.errors import (
     BeltramiError,
@@ -15,6 +14,7 @@ from beltrami.errors import (
 )
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.pair import MASSES
+from meshes_of_the_errata import IRREGULAR, MESHES, triangle
 
 
 def _dense(pair):
@@ -195,7 +195,7 @@ def test_what_is_refused():
         with pytest.raises(BeltramiError, match="time must be"):
             heat(pair, f, time)
     for steps in (0, -3):
-        with pytest.raises(BeltramiError, match="steps >= 1"):
+        with pytest.raises(BeltramiError, match="whole number >= 1"):
             heat(pair, f, 1.0, steps=steps)
     with pytest.raises(DimensionError):
         heat(pair, f[:-1], 1.0)
@@ -203,3 +203,13 @@ def test_what_is_refused():
         heat(pair, np.full(192, np.inf), 1.0)
     with pytest.raises(MeshError, match="held vertices"):
         heat(pair, f, 1.0, hold=[192])
+
+
+@pytest.mark.parametrize("method", ["implicit", "explicit"])
+@pytest.mark.parametrize("steps", [2.5, "3"])
+def test_a_number_of_steps_is_whole(method, steps):
+    """Two steps and a half would be three of the length time / 2.5: another time."""
+    pair = laplacian(MESHES["open"](), "combinatorial")
+    with pytest.raises((BeltramiError, TypeError)):
+        heat(pair, np.zeros(192), 1.0, method, steps)
+    assert heat(pair, np.zeros(192), 1.0, method, np.int64(3)).shape == (192,)

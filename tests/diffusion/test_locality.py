@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
-from meshes_of_the_errata import MESHES
 from scipy.sparse import csr_array
 
 from beltrami.diffusion.locality import local_rows
 from beltrami.mesh.shapes import icosphere
+from meshes_of_the_errata import MESHES
 
 
 def _wheel(n):

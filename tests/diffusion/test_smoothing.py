@@ -1,11 +1,10 @@
-import dense_oracles as oracle
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from meshes_of_the_errata import IRREGULAR, MESHES, flipped
 from scipy.sparse import csr_array
 
+import dense_oracles as oracle
 from beltrami.diffusion.smoothing import smooth
 from beltrami.errors import (
     BeltramiError,
@@ -16,6 +15,7 @@ from beltrami.errors import (
     StepTooLongError,
 )
 from beltrami.operators.laplacian import laplacian
+from meshes_of_the_errata import IRREGULAR, MESHES, flipped
 
 KINDS = {  # a mesh with no negative weight of that kind
     "combinatorial": "bad",
@@ -168,7 +168,7 @@ def test_what_is_refused():
     pair = laplacian(MESHES["open"]().topology)
     f = np.zeros(192)
     for steps, step in ((-1, 1.0), (1, -0.1), (1, np.nan)):
-        with pytest.raises(BeltramiError, match="steps and step"):
+        with pytest.raises(BeltramiError, match=r"steps? must be"):
             smooth(pair, f, steps, step)
     with pytest.raises(StepTooLongError):
         smooth(pair, f, 1, np.inf)
@@ -191,3 +191,11 @@ def test_an_edge_of_weight_zero_gives_no_nan():
     W = csr_array((np.array([0.0, 0.0, 1.0, 1.0]), ([0, 1, 1, 2], [1, 0, 2, 1])), shape=(3, 3))
     pair = laplacian(W, mass="unit")
     assert smooth(pair, [5.0, 1, 3], 1).tolist() == [5, 3, 1]
+
+
+@pytest.mark.parametrize("steps", [2.5, "3"])
+def test_a_number_of_steps_is_whole(steps):
+    pair = laplacian(MESHES["open"]().topology)
+    with pytest.raises((BeltramiError, TypeError)):
+        smooth(pair, np.zeros(192), steps)
+    assert smooth(pair, np.zeros(192), np.int64(3)).shape == (192,)

@@ -112,6 +112,12 @@ def test_line_ends_of_the_header(put):
     assert read_mesh(put("a.ply", text)).faces.tolist() == [[0, 1, 2]]
 
 
+def test_long_headers(put, form):
+    long = b"comment end_header\n" + b"comment of many words\n" * 400
+    content = ply(form, square([(0, 1, 2)])).replace(b"comment made\n", long)
+    assert read_mesh(put("a.ply", content)).faces.tolist() == [[0, 1, 2]]
+
+
 def test_not_finite_values_are_data_but_no_coordinates(put, form):
     vertex = ["float x", "float y", "float z", "float q"]
     rows = [(*x, float("nan")) for x in SQUARE]

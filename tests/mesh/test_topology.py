@@ -285,7 +285,7 @@ def check_components(faces, n):
     by_vertex = classes(nodes, [pair for pair in at_vertex if pair])
     found = edges_of(faces)
     at_edge = [{("f", f) for f in whole if set(e) <= set(faces[f].tolist())} for e in found]
-    by_edge = classes(nodes, [pair for pair in at_edge if len(pair) == 2])
+    by_edge = classes(nodes, [group for group in at_edge if group])
     for through, expected in (("vertices", by_vertex), ("edges", by_edge)):
         labels = topology.components(through)
         assert labels.shape == (len(faces),)

@@ -1,8 +1,7 @@
-import dense_oracles as oracle
 import numpy as np
 import pytest
-from meshes_of_the_errata import MESHES, triangle
 
+import dense_oracles as oracle
 from beltrami.errors import (
     DegenerateFaceError,
     EmptyMeshError,
@@ -16,6 +15,7 @@ from beltrami.operators.areas import (
     diagonal_matrix,
     vertex_areas,
 )
+from meshes_of_the_errata import MESHES, triangle
 
 
 @pytest.mark.parametrize("name", MESHES)

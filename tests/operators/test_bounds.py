@@ -1,16 +1,16 @@
-import dense_oracles as oracle
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from meshes_of_the_errata import MESHES, flipped, triangle
 from scipy.sparse import csr_array
 
+import dense_oracles as oracle
 from beltrami.errors import DimensionError, UnknownNameError
 from beltrami.operators import bounds
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.pair import MASSES
 from beltrami.operators.weights import WEIGHTS
+from meshes_of_the_errata import MESHES, flipped, triangle
 
 
 def _pair(sides, corners):
@@ -98,9 +98,12 @@ def test_bounds_the_spectrum_of_a_graph(seed, signed, mass):
 def test_a_graph_without_edges():
     pair = laplacian(csr_array((3, 3)), mass="unit")
     assert pair.spectral_bound() == 0
-    assert bounds.largest_edge_eigenvalue(
-        np.zeros((0, 2), np.int64), np.zeros(0), np.zeros(3), np.ones(3)
-    ) == 0
+    assert (
+        bounds.largest_edge_eigenvalue(
+            np.zeros((0, 2), np.int64), np.zeros(0), np.zeros(3), np.ones(3)
+        )
+        == 0
+    )
 
 
 def test_positions_are_needed_for_areas():

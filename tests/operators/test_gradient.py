@@ -1,8 +1,7 @@
-import dense_oracles as oracle
 import numpy as np
 import pytest
-from meshes_of_the_errata import IRREGULAR, MESHES
 
+import dense_oracles as oracle
 from beltrami.errors import (
     DegenerateFaceError,
     EmptyMeshError,
@@ -18,6 +17,7 @@ from beltrami.operators.gradient import (
 )
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.weights import weigh_edges
+from meshes_of_the_errata import IRREGULAR, MESHES
 
 
 def test_incidence_goes_from_the_smaller_vertex_to_the_larger():

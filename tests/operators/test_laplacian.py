@@ -1,9 +1,8 @@
-import dense_oracles as oracle
 import numpy as np
 import pytest
-from meshes_of_the_errata import IRREGULAR, MESHES, triangle
 from scipy.sparse import coo_array, csc_matrix, csr_array
 
+import dense_oracles as oracle
 from beltrami.errors import (
     DegenerateFaceError,
     DimensionError,
@@ -17,6 +16,7 @@ from beltrami.mesh.mesh import Mesh
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.pair import MASSES
 from beltrami.operators.weights import WEIGHTS
+from meshes_of_the_errata import IRREGULAR, MESHES, triangle
 
 
 @pytest.mark.parametrize("name", MESHES)

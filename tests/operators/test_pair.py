@@ -1,11 +1,10 @@
 import pickle
 
-import dense_oracles as oracle
 import numpy as np
 import pytest
-from meshes_of_the_errata import IRREGULAR, MESHES
 from scipy.sparse import csr_array
 
+import dense_oracles as oracle
 from beltrami.errors import (
     DimensionError,
     MeshError,
@@ -14,6 +13,7 @@ from beltrami.errors import (
 )
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.pair import MASSES
+from meshes_of_the_errata import IRREGULAR, MESHES
 
 
 @pytest.fixture(params=MASSES)

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from beltrami.operators.triangle import (
+from beltrami.mesh.triangle import (
     BARYCENTRIC,
     CIRCUMCENTRIC,
     VORONOI,
@@ -22,9 +22,7 @@ def _random_triangle(seed):
 def _circumcentric(x):
     """Signed areas of the pieces between a corner, two middles of sides and the circumcentre."""
     u, v = x[1] - x[0], x[2] - x[0]
-    s, t = np.linalg.solve(
-        2 * np.array([[u @ u, u @ v], [u @ v, v @ v]]), np.array([u @ u, v @ v])
-    )
+    s, t = np.linalg.solve(2 * np.array([[u @ u, u @ v], [u @ v, v @ v]]), np.array([u @ u, v @ v]))
     centre = x[0] + s * u + t * v
     normal = np.cross(u, v) / np.linalg.norm(np.cross(u, v))
     area = lambda a, b, c: normal @ np.cross(b - a, c - a) / 2  # noqa: E731

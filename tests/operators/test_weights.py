@@ -1,8 +1,7 @@
-import dense_oracles as oracle
 import numpy as np
 import pytest
-from meshes_of_the_errata import IRREGULAR, MESHES, triangle
 
+import dense_oracles as oracle
 from beltrami.errors import (
     DegenerateFaceError,
     DimensionError,
@@ -13,6 +12,7 @@ from beltrami.errors import (
 )
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.weights import WEIGHTS, edge_weights, weigh_edges
+from meshes_of_the_errata import IRREGULAR, MESHES, triangle
 
 
 @pytest.mark.parametrize("name", MESHES)

@@ -1,6 +1,5 @@
 import numpy as np
 import pytest
-from meshes_of_the_errata import IRREGULAR, MESHES
 from scipy.sparse import coo_array, csc_matrix, csr_array, csr_matrix, random_array
 from scipy.sparse.linalg import norm
 
@@ -12,6 +11,7 @@ from beltrami.errors import (
 )
 from beltrami.operators.laplacian import laplacian
 from beltrami.solvers.factorize import factorize
+from meshes_of_the_errata import IRREGULAR, MESHES
 
 
 def _residual(A, x, b):
@@ -68,7 +68,8 @@ def test_the_matrix_is_not_changed():
 
 
 @pytest.mark.parametrize(
-    "A", [np.zeros((2, 2)), np.ones((2, 2)), np.diag([1.0, 0]), [[1.0, 2], [2, 4]], [[0, 1], [0, 2]]]
+    "A",
+    [np.zeros((2, 2)), np.ones((2, 2)), np.diag([1.0, 0]), [[1.0, 2], [2, 4]], [[0, 1], [0, 2]]],
 )
 def test_singular_matrices_are_told(A):
     with pytest.raises(SingularMatrixError, match="singular"):

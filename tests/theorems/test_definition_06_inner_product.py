@@ -1,13 +1,14 @@
 """Definition 6 with a mass: what the plain inner product loses (E12)."""
 
-import dense_oracles as oracle
 import numpy as np
 import pytest
-from meshes_of_the_errata import IRREGULAR, MESHES
+from scipy.spatial import ConvexHull
 
+import dense_oracles as oracle
 from beltrami.diffusion.heat import heat
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.laplacian import laplacian
+from meshes_of_the_errata import IRREGULAR, MESHES
 
 
 @pytest.mark.parametrize("name", IRREGULAR)
@@ -47,8 +48,6 @@ def test_the_mean_over_a_sphere_that_is_sampled_more_in_the_north():
     x = rng.normal(size=(1500, 3))
     x /= np.linalg.norm(x, axis=1, keepdims=True)
     x = x[(x[:, 2] > 0) | (rng.uniform(size=1500) < 0.3)]
-    from scipy.spatial import ConvexHull
-
     mesh = Mesh(x, ConvexHull(x).simplices)
     z = x[:, 2]
     assert abs(laplacian(mesh).mean(z)) < 0.01

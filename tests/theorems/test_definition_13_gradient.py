@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from meshes_of_the_errata import IRREGULAR, MESHES
 
 from beltrami.errors import NegativeWeightError
 from beltrami.operators.laplacian import laplacian
+from meshes_of_the_errata import IRREGULAR, MESHES
 
 
 @pytest.mark.parametrize("name", MESHES)
@@ -48,6 +48,6 @@ def test_negative_weights_have_no_real_root(name):
     with np.errstate(invalid="ignore"):
         lost = np.isnan(np.sqrt(pair.edge_weight))
     assert lost.any()
-    with pytest.raises(NegativeWeightError, match="incidence") as caught:
+    with pytest.raises(NegativeWeightError) as caught:
         _ = pair.gradient
     assert np.array_equal(caught.value.edges, pair.edges[lost])

@@ -1,14 +1,14 @@
 """Definition 14: L = D - W, positive semi-definite (E15, E42, E44)."""
 
-import dense_oracles as oracle
 import numpy as np
 import pytest
-from meshes_of_the_errata import IRREGULAR, MESHES
 from scipy.sparse import csr_array
 
+import dense_oracles as oracle
 from beltrami.errors import MeshError
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.weights import WEIGHTS
+from meshes_of_the_errata import IRREGULAR, MESHES
 
 
 @pytest.mark.parametrize("name", MESHES)

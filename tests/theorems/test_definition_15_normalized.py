@@ -1,13 +1,13 @@
 """Definition 15: the normalised Laplacian, with its middle expression corrected (E43, E45)."""
 
-import dense_oracles as oracle
 import numpy as np
 import pytest
-from meshes_of_the_errata import IRREGULAR, MESHES
 
+import dense_oracles as oracle
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.pair import MASSES
 from beltrami.operators.weights import WEIGHTS
+from meshes_of_the_errata import IRREGULAR, MESHES
 
 
 @pytest.mark.parametrize("name", IRREGULAR)

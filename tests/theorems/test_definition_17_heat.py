@@ -1,15 +1,15 @@
 """Definition 17: the heat equation, its means and its units (E50, E51)."""
 
-import dense_oracles as oracle
 import numpy as np
 import pytest
-from meshes_of_the_errata import IRREGULAR, MESHES
 from scipy.linalg import expm
 from scipy.sparse import csr_array
 
+import dense_oracles as oracle
 from beltrami.diffusion.heat import heat
 from beltrami.mesh.shapes import icosphere
 from beltrami.operators.laplacian import laplacian
+from meshes_of_the_errata import IRREGULAR, MESHES
 
 
 @pytest.mark.parametrize("name", IRREGULAR)

@@ -1,14 +1,14 @@
 """Theorem 3: areas of cells, with its constant corrected (E22, E23, E24, E30)."""
 
-import dense_oracles as oracle
 import numpy as np
 import pytest
-from meshes_of_the_errata import MESHES
 from scipy.spatial import Voronoi
 
+import dense_oracles as oracle
 from beltrami.operators.areas import vertex_areas
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.weights import weigh_edges
+from meshes_of_the_errata import MESHES
 
 
 def _printed(mesh):
@@ -72,9 +72,9 @@ def test_what_integrates_linear_functions_exactly():
     mesh = MESHES["open"]()
     x = mesh.vertices[:, 0]
     assert vertex_areas(mesh, "barycentric") @ x == pytest.approx(0.5, abs=1e-13)
-    assert vertex_areas(mesh, "circumcentric") @ x == pytest.approx(0.5, abs=1e-13)
-    assert 1e-6 < abs(vertex_areas(mesh, "voronoi") @ x - 0.5) < 1e-2  # mixed ones do not
-    assert _printed(mesh) @ x == pytest.approx(1.0)
+    for kind in ("circumcentric", "voronoi"):  # the signed ones do if the boundary is regular
+        assert 1e-6 < abs(vertex_areas(mesh, kind) @ x - 0.5) < 1e-2
+    assert _printed(mesh) @ x == pytest.approx(1.0, abs=0.01)
 
 
 def test_quadrature_of_a_smooth_function():

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from meshes_of_the_errata import IRREGULAR, MESHES
 
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.weights import WEIGHTS
+from meshes_of_the_errata import IRREGULAR, MESHES
 
 POSITIVE = [(name, kind) for name in IRREGULAR for kind in ("combinatorial", "distance")]
 

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from meshes_of_the_errata import IRREGULAR, MESHES
 from scipy.linalg import null_space
 
 from beltrami.errors import UnreferencedVertexError
@@ -10,6 +9,7 @@ from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import icosphere
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.weights import WEIGHTS
+from meshes_of_the_errata import IRREGULAR, MESHES
 
 
 @pytest.mark.parametrize("name", IRREGULAR)

@@ -1,15 +1,15 @@
 """Theorem 9: the normalised spectrum lies in [0, 2] for w >= 0, in [0, 3) for cotangents (E62)."""
 
-import dense_oracles as oracle
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from meshes_of_the_errata import MESHES, flipped, triangle
 from scipy.sparse import csr_array
 
+import dense_oracles as oracle
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.laplacian import laplacian
+from meshes_of_the_errata import MESHES, flipped, triangle
 
 
 def _normalised(pair):
@@ -59,7 +59,7 @@ def test_positive_weights_of_a_mesh_stay_below_two(name, kind):
     values = _normalised(pair)
     assert values[0] == pytest.approx(0, abs=1e-12)
     assert values[1] > 1e-4
-    assert values[-1] <= pair.spectral_bound() < 2
+    assert values[-1] - 1e-12 <= pair.spectral_bound() < 2
 
 
 @pytest.mark.parametrize("name", ["obt", "bad"])

@@ -1,21 +1,18 @@
-"""The command ``beltrami``: its verbs, and how errors end."""
+"""The command ``beltrami`` and its verbs."""
 
 from __future__ import annotations
 
-import re
-import sys
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
+from beltrami.cli.endings import ending_well
 from beltrami.cli.heat import heat
 from beltrami.cli.info import info
 from beltrami.cli.render import render
 from beltrami.cli.repair import repair
 from beltrami.cli.smooth import smooth
 from beltrami.cli.tour import tour
-from beltrami.errors import BeltramiError
 
 app = typer.Typer(
     name="beltrami",
@@ -26,7 +23,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 for verb in (info, repair, smooth, heat, render, tour):
-    app.command()(verb)
+    app.command()(ending_well(verb))
 
 
 def _show_version(asked: bool) -> None:
@@ -45,27 +42,3 @@ def options(
     ] = False,
 ) -> None:
     """Process functions on triangle meshes. Files in, files out."""
-
-
-def run() -> None:
-    """Run the command; bad input is one line on stderr and exit code 1, bad usage exit code 2."""
-    try:
-        app()
-    except (BeltramiError, OSError, MemoryError) as error:
-        Console(stderr=True, highlight=False, soft_wrap=True).print(
-            f"beltrami: {_as_a_line(error)}", style="red", markup=False
-        )
-        sys.exit(1)
-
-
-def _as_a_line(error: Exception) -> str:
-    """Put an error into one line, with the repair as a command instead of as a call."""
-    if isinstance(error, OSError) and error.filename is not None:
-        return f"{error.filename}: {error.strerror}"
-    text = " ".join((str(error) or type(error).__name__).split())
-    return re.sub(r"repair\(mesh, ([^)]*)\)", _as_options, text)
-
-
-def _as_options(call: re.Match[str]) -> str:
-    names = re.findall(r"(\w+)=", call.group(1))
-    return "beltrami repair " + " ".join("--" + name.replace("_", "-") for name in names)

@@ -41,7 +41,8 @@ def waiting(what: str) -> Iterator[Callback]:
         yield lambda done, total: bar.update(task, completed=done, total=total)
     finally:
         timer.cancel()
-        bar.stop()
+        if bar.live.is_started:  # stopped without a start it would write an empty line
+            bar.stop()
 
 
 def print_json(value: Any) -> None:

@@ -5,23 +5,24 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import typer
-
 if TYPE_CHECKING:
     from beltrami._arrays import Floats
     from beltrami.mesh.mesh import Mesh
 
 
-def read_data(path: Path, mesh: Mesh) -> Floats:
-    """Read a function from a file and check it against the mesh."""
+def read_data(path: Path, mesh: Mesh, name: str | None = None) -> Floats:
+    """Read a function from a file, by its name if the file has several; check it."""
     from beltrami._arrays import as_function
     from beltrami.io.function import read_function
 
-    return as_function(read_function(path), mesh.n_vertices, f"the function of {path}")
+    return as_function(read_function(path, name), mesh.n_vertices, f"the function of {path}")
 
 
 def write_values(path: Path, mesh: Mesh, name: str, values: Floats) -> None:
-    """Write values to .npy or .txt, or the mesh with the values as a named function to .ply."""
+    """Write values to .npy or .txt, or the mesh with the values as a named function to .ply.
+
+    The suffix was checked before the work, by ``check_values_output``.
+    """
     import numpy as np
 
     from beltrami.io.atomic import replacing
@@ -34,9 +35,5 @@ def write_values(path: Path, mesh: Mesh, name: str, values: Floats) -> None:
     elif suffix in (".txt", ".csv"):
         with replacing(path) as file:
             np.savetxt(file, values, fmt="%.17g", delimiter="," if suffix == ".csv" else " ")
-    elif suffix == ".ply":
-        write_mesh(path, mesh.with_data(**{name: values}))
     else:
-        raise typer.BadParameter(
-            f"{path}: values are written to .npy, .txt, .csv, or to .ply with their mesh"
-        )
+        write_mesh(path, mesh.with_data(**{name: values}))

@@ -8,14 +8,16 @@ import typer
 
 from beltrami.cli.console import waiting
 from beltrami.cli.functions import read_data, write_values
-from beltrami.cli.options import Data, HoldBoundary, Mass, MeshFile, Output, Weights
+from beltrami.cli.options import Data, DataName, HoldBoundary, Mass, MeshFile, Values, Weights
+from beltrami.cli.outputs import check_values_output
 
 
 def heat(
     mesh: MeshFile,
-    output: Output,
+    output: Values,
     time: Annotated[float, typer.Option(help="Diffusion time, in length² with area masses.")],
     data: Data = None,
+    data_name: DataName = None,
     source: Annotated[
         list[int] | None,
         typer.Option(metavar="VERTEX", help="A unit of heat at this vertex, instead of --data."),
@@ -39,18 +41,19 @@ def heat(
 
     if (data is None) == (source is None):
         raise typer.BadParameter("give either --data or --source")
+    check_values_output(output)
     with waiting(f"reading {mesh.name}"):
         read = read_mesh(mesh)
     held = read.topology.boundary_edges.ravel() if hold_boundary else ()
     with waiting("diffusing") as progress:
         pair = laplacian(read, weights, mass)
         if data is not None:
-            values = read_data(data, read)
+            values = read_data(data, read, data_name)
         else:
             values = np.zeros(read.n_vertices)
             at = as_indices(source or (), read.n_vertices, "source vertices")
             values[at] = 1 / pair.masses[at]
         result = diffuse(pair, values, time, method, steps, hold=held, progress=progress)
-    write_values(output, read, "heat" if data is None else data.stem, result)
+    write_values(output, read, "heat" if data is None else data_name or data.stem, result)
     low, high = float(result.min()), float(result.max())
     typer.echo(f"wrote {output}: values from {low:.6g} to {high:.6g}, {pair!r}")

@@ -6,6 +6,7 @@ import typer
 
 from beltrami.cli.console import print_json, waiting
 from beltrami.cli.options import Json, MeshFile
+from beltrami.cli.remedies import as_commands
 
 
 def info(mesh: MeshFile, json: Json = False) -> None:
@@ -23,4 +24,4 @@ def info(mesh: MeshFile, json: Json = False) -> None:
         print_json(facts | {"vertex_data": data, "has_uv": read.corner_uv is not None})
         return
     typer.echo(f"{mesh}: {read!r}")
-    typer.echo(diagnosis.report())
+    typer.echo(as_commands(diagnosis.report()))

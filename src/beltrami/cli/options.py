@@ -14,12 +14,25 @@ MeshOutput = Annotated[
 Output = Annotated[
     Path,
     typer.Option(
-        "-o", "--output", metavar="FILE", help="File to write: a mesh, or .npy for the values."
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="File to write: the mesh; of --data .npy .txt .csv .ply.",
+    ),
+]
+Values = Annotated[
+    Path,
+    typer.Option(
+        "-o", "--output", metavar="FILE", help="Values: .npy .txt .csv, or .ply with the mesh."
     ),
 ]
 Data = Annotated[
     Path | None,
     typer.Option(metavar="FILE", help="Function on the vertices: .npy .txt .ply .gii ..."),
+]
+DataName = Annotated[
+    str | None,
+    typer.Option(metavar="NAME", help="Which function of --data, if it has several."),
 ]
 Weights = Annotated[
     str | None,

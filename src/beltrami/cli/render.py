@@ -9,7 +9,8 @@ import typer
 
 from beltrami.cli.console import waiting
 from beltrami.cli.functions import read_data
-from beltrami.cli.options import Data
+from beltrami.cli.options import Data, DataName
+from beltrami.cli.outputs import check_picture_output
 
 Option = typer.Option
 
@@ -22,6 +23,7 @@ def render(
         Path, Option("-o", "--output", metavar="FILE", help="Picture: .png, .webp or .gif.")
     ],
     data: Data = None,
+    data_name: DataName = None,
     size: Annotated[tuple[int, int], Option(help="Width and height of a panel.")] = (800, 800),
     view: Annotated[
         tuple[float, float] | None,
@@ -41,9 +43,12 @@ def render(
     from beltrami.display.render import render as draw
     from beltrami.io.registry import read_mesh
 
+    check_picture_output(output)
+    if data is None and (colormap, limits, data_name) != (None, None, None):
+        raise typer.BadParameter("--colormap, --limits and --data-name go with --data")
     with waiting("reading"):
         read = [read_mesh(path) for path in meshes]
-        functions = [None if data is None else read_data(data, read[0])]
+        functions = [None if data is None else read_data(data, read[0], data_name)]
     several = len(read) > 1
     with waiting("drawing"):
         picture = draw(

@@ -8,6 +8,7 @@ import typer
 
 from beltrami.cli.console import print_json, waiting
 from beltrami.cli.options import Json, MeshFile, MeshOutput
+from beltrami.cli.outputs import check_mesh_output
 
 Flag = typer.Option
 ALL = "Everything above, but for --keep-largest-component."
@@ -62,6 +63,7 @@ def repair(
     }
     if not any(asked.values()):
         raise typer.BadParameter("say what to repair; `beltrami info` tells what is wrong")
+    check_mesh_output(output)
     with waiting(f"repairing {mesh.name}"):
         fixed = room.repair(read_mesh(mesh), tolerance=tolerance, **asked)
         write_mesh(output, fixed.mesh)

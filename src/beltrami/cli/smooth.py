@@ -8,7 +8,8 @@ import typer
 
 from beltrami.cli.console import waiting
 from beltrami.cli.functions import read_data, write_values
-from beltrami.cli.options import Data, HoldBoundary, MeshFile, Output, Time, Weights
+from beltrami.cli.options import Data, DataName, HoldBoundary, MeshFile, Output, Time, Weights
+from beltrami.cli.outputs import check_mesh_output, check_values_output
 
 
 def smooth(
@@ -20,10 +21,14 @@ def smooth(
     steps: Annotated[
         int | None, typer.Option(min=0, help="Rounds, or time steps.", show_default="10")
     ] = None,
-    step: Annotated[float, typer.Option(help="Of averaging: how far to the mean, 0 to 1.")] = 1.0,
+    step: Annotated[
+        float | None,
+        typer.Option(help="Of averaging: how far to the mean, 0 to 1.", show_default="1"),
+    ] = None,
     time: Time = None,
     weights: Weights = None,
     data: Data = None,
+    data_name: DataName = None,
     hold_boundary: HoldBoundary = False,
     keep: Annotated[
         str | None, typer.Option(help="volume or centroid.", show_default=False)
@@ -38,18 +43,26 @@ def smooth(
     from beltrami.io.registry import read_mesh, write_mesh
     from beltrami.operators.laplacian import laplacian
 
+    if method == "averaging" and time is not None:
+        raise typer.BadParameter("--time goes with --method implicit or explicit")
+    if method != "averaging" and step is not None:
+        raise typer.BadParameter("--step goes with --method averaging")
+    if data is not None and method != "averaging":
+        raise typer.BadParameter("a function is diffused by `beltrami heat`")
+    if data is not None and keep is not None:
+        raise typer.BadParameter("--keep is for meshes, not for --data")
+    (check_mesh_output if data is None else check_values_output)(output)
     with waiting(f"reading {mesh.name}"):
         read = read_mesh(mesh)
     if data is not None:
-        if method != "averaging":
-            raise typer.BadParameter("a function is diffused by `beltrami heat`")
-        values = read_data(data, read)
+        values = read_data(data, read, data_name)
         held = read.topology.boundary_edges.ravel() if hold_boundary else ()
         with waiting("smoothing") as progress:
             pair = laplacian(read, weights or "combinatorial", "degree")
             rounds = 10 if steps is None else steps
-            result = smooth_function(pair, values, rounds, step, hold=held, progress=progress)
-        write_values(output, read, data.stem, result)
+            delta = 1.0 if step is None else step
+            result = smooth_function(pair, values, rounds, delta, hold=held, progress=progress)
+        write_values(output, read, data_name or data.stem, result)
         typer.echo(f"wrote {output}")
         return
     with waiting("smoothing") as progress:

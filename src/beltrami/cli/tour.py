@@ -8,13 +8,16 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from beltrami.cli.console import waiting
-from beltrami.errors import BeltramiError
+from beltrami.cli.remedies import as_commands
+from beltrami.errors import BeltramiError, EmptyMeshError, check_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from beltrami.cli.chapters.chapter import Chapter, Stage
     from beltrami.mesh.mesh import Mesh
+
+MESH = "mesh.ply"  # written by the chapter about files
 
 
 def tour(
@@ -38,12 +41,12 @@ def tour(
     from beltrami.cli.index_page import index_page
     from beltrami.io.atomic import replacing
 
+    axis = check_name("axis", up or ("z" if mesh is None else "y"), ("x", "y", "z"))
     with waiting("preparing the mesh"):
         shape, notes = _prepared(mesh)
     output.mkdir(parents=True, exist_ok=True)
-    axis = up or ("z" if mesh is None else "y")
-    stage = Stage(str(mesh or "mesh.ply"), shape, output, axis, view)
-    chapters = _play(stage)
+    chapters = _play(Stage(MESH, shape, output, axis, view))
+    notes.append(f"The commands on this page run in its folder, on its {MESH}.")
     title = f"A tour of {'the blob' if mesh is None else mesh.name}"
     with replacing(output / "index.html") as file:
         file.write(index_page(title, notes, chapters).encode())
@@ -59,6 +62,8 @@ def _prepared(path: Path | None) -> tuple[Mesh, list[str]]:
     if path is None:
         return blob(20_000), ["The embedded shape: smooth limbs, a thin neck, a sharp crest."]
     fixed = repair(read_mesh(path), remove_degenerate_faces=True, remove_unreferenced=True)
+    if fixed.mesh.n_faces == 0:
+        raise EmptyMeshError(f"{path}: no face has an area, so there is nothing to show")
     notes = [f"Before the tour, on a copy: {line}." for line in fixed.done]
     for note in notes:
         typer.echo(note)
@@ -83,6 +88,7 @@ def _play(stage: Stage) -> list[Chapter]:
                 played.append(act(stage))
             except BeltramiError as error:
                 title = act.__name__.capitalize()
-                played.append(Chapter(title, "", (f"Not on this mesh: {error}",)))
-                typer.echo(f"{title}: not on this mesh: {error}", err=True)
+                why = f"Not on this mesh: {as_commands(str(error))}"
+                played.append(Chapter(title, "", (why,)))
+                typer.echo(f"{title}: {why}", err=True)
     return played

@@ -77,8 +77,10 @@ def heat(
     check_name("method of heat", method, HEAT_METHODS)
     values = as_function(f, laplacian.n)
     held = as_indices(hold, laplacian.n, "held vertices")
-    if not (math.isfinite(time) and time >= 0) or (steps is not None and steps < 1):
-        raise BeltramiError(f"time must be >= 0 and steps >= 1, not {time} and {steps}")
+    if not (math.isfinite(time) and time >= 0):
+        raise BeltramiError(f"time must be finite and >= 0, not {time}")
+    if steps is not None and (steps < 1 or steps != int(steps)):
+        raise BeltramiError(f"steps must be a whole number >= 1, not {steps}")
     if time == 0:
         return values.copy()
     if method == "implicit":

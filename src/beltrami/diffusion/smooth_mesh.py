@@ -22,7 +22,7 @@ def smooth_mesh(
     method: str = "averaging",
     *,
     steps: int | None = None,
-    step: float = 1.0,
+    step: float | None = None,
     time: float | None = None,
     weights: str | None = None,
     mass: str | None = None,
@@ -38,7 +38,8 @@ def smooth_mesh(
     mesh
         Any sound mesh.
     method
-        ``"averaging"``: ``steps`` rounds (default 10) of (1 - δ) x + δ D⁻¹ W x with δ = ``step``.
+        ``"averaging"``: ``steps`` rounds (default 10) of (1 - δ) x + δ D⁻¹ W x with δ = ``step``
+        (default 1).
         ``"implicit"``, ``"explicit"``: the heat equation for ``time``, in ``steps`` steps.
     time
         Diffusion time of the heat methods, in length² with area masses; no default, because it
@@ -60,7 +61,8 @@ def smooth_mesh(
     NotClosedError
         If the volume is to be kept of a mesh with boundary.
     BeltramiError
-        If ``time`` is missing, or ``keep`` would move what is held.
+        If ``time`` is missing, an option is given that the method has not, or ``keep`` would
+        move what is held.
     NegativeWeightError, StepTooLongError, MeshError
         As ``smooth`` and ``heat``.
 
@@ -76,6 +78,10 @@ def smooth_mesh(
     1.0
     """
     check_name("smoothing method", method, SMOOTHING_METHODS)
+    foreign = {"time": time, "mass": mass} if method == "averaging" else {"step": step}
+    for name, value in foreign.items():
+        if value is not None:
+            raise BeltramiError(f"the method {method!r} has no {name}")
     held = np.zeros(mesh.n_vertices, np.bool_)
     held[as_indices(hold, mesh.n_vertices, "held vertices")] = True
     if hold_boundary:
@@ -101,13 +107,14 @@ def _averaged(
     mesh: Mesh,
     weights: str | None,
     steps: int | None,
-    step: float,
+    step: float | None,
     held: Booleans,
     progress: Progress | None,
 ) -> Floats:
     pair = laplacian(mesh, weights or "combinatorial", "degree")
     count = 10 if steps is None else steps
-    return smooth(pair, mesh.vertices, count, step, hold=held, progress=progress)
+    delta = 1.0 if step is None else step
+    return smooth(pair, mesh.vertices, count, delta, hold=held, progress=progress)
 
 
 def _diffused(

@@ -77,13 +77,16 @@ def smooth(
     laplacian.require_non_negative("averaging")
     held = np.zeros(laplacian.n, np.bool_)
     held[as_indices(hold, laplacian.n, "held vertices")] = True
-    if steps < 0 or not step >= 0:
-        raise BeltramiError(f"steps and step must not be negative, and are {steps} and {step}")
+    if steps < 0 or steps != int(steps):
+        raise BeltramiError(f"steps must be a whole number >= 0, not {steps}")
+    if not step >= 0:
+        raise BeltramiError(f"step must be >= 0, not {step}")
     if step > 1:
         longest = 2 / laplacian.spectral_bound(mass="degree")
         if step > longest * (1 + 1e-12):
             raise StepTooLongError(step, longest)
     weights = laplacian.weights
+    held |= laplacian.degrees == 0  # a vertex without neighbours keeps its value
     rows = local_rows(weights.indptr, weights.indices, held)
     columns = values.reshape(laplacian.n, -1)[rows.order]
     alike = laplacian.weight_kind == "combinatorial"  # all 1: nothing to load but the numbers
@@ -97,8 +100,8 @@ def smooth(
 def _shares(laplacian: Laplacian, rows: LocalRows) -> Floats:
     """Return w_ij / d_i in the order of the renumbered rows."""
     weights = laplacian.weights
-    shares: Floats = weights.data / np.repeat(laplacian.degrees, np.diff(weights.indptr))
-    return shares[rows.source]
+    degrees = np.repeat(laplacian.degrees, np.diff(weights.indptr))[rows.source]
+    return np.asarray(weights.data[rows.source] / degrees)
 
 
 def _averaged(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import NamedTuple
 
 import numpy as np
@@ -115,7 +116,7 @@ def read_header(source: Source) -> Header:
 def _head(source: Source) -> bytes:
     """Return the beginning of the file: a page, or up to the longest header if that is short."""
     page = source.data[:_PAGE].tobytes()
-    return page if b"end_header" in page else source.data[:_LONGEST].tobytes()
+    return page if re.search(rb"[\r\n]end_header[\r\n]", page) else source.data[:_LONGEST].tobytes()
 
 
 def _wrong(source: Source, number: int, expected: str, line: bytes) -> FileFormatError:

@@ -23,6 +23,14 @@ def component_labels(pairs: NDArray[Any], n: int) -> Integers:
     return labels
 
 
+def faces_joined_by_edges(face_edges: NDArray[np.int32], p: int) -> Integers:
+    """Label the components of faces with common edges, among p, of however many faces."""
+    m = len(face_edges)
+    face, side = np.nonzero(face_edges >= 0)
+    pairs = np.stack([face, m + face_edges[face, side]], axis=1)
+    return component_labels(pairs, m + p)[:m]
+
+
 def parity_colouring(pairs: NDArray[Any], differ: Booleans, n: int) -> Booleans | None:
     """Colour n nodes so that the ends of pair e differ exactly where ``differ[e]``.
 

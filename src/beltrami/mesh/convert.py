@@ -15,7 +15,8 @@ def as_mesh(source: Any) -> Mesh:
 
     Accepted are a Mesh itself, pairs, and whatever has ``vertices`` and ``faces`` (trimesh),
     ``points`` and ``regular_faces`` (pyvista), ``points`` and ``cells_dict`` (meshio), or
-    ``vertices`` and ``triangles`` (open3d). The order of vertices and faces is kept.
+    ``vertices`` and ``triangles`` (open3d). The order of vertices and faces is kept; quads of
+    meshio are cut in two and come last, its points and lines are no faces.
 
     Raises
     ------
@@ -39,10 +40,18 @@ def as_mesh(source: Any) -> Mesh:
         if hasattr(source, vertices) and hasattr(source, faces):
             return Mesh(np.asarray(getattr(source, vertices)), np.asarray(getattr(source, faces)))
     if hasattr(source, "points") and hasattr(source, "cells_dict"):
-        if "triangle" in source.cells_dict:
-            return Mesh(np.asarray(source.points), source.cells_dict["triangle"])
-        raise MeshError(f"this meshio object holds no triangles, but {list(source.cells_dict)}")
+        return Mesh(np.asarray(source.points), _triangles(source.cells_dict))
     raise MeshError(
         f"cannot make a mesh of an object of type {type(source).__name__}",
         remedy="Give a pair (vertices, faces).",
     )
+
+
+def _triangles(cells: dict[str, Any]) -> np.ndarray:
+    """Collect the triangles and the halves of the quads of meshio; refuse other faces."""
+    unknown = set(cells) - {"triangle", "quad", "line", "vertex"}
+    if unknown or not set(cells) & {"triangle", "quad"}:
+        raise MeshError(f"triangles or quads are needed, and this meshio object has {list(cells)}")
+    quads = np.asarray(cells.get("quad", np.zeros((0, 4), np.int64)))
+    halves = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    return np.concatenate([cells.get("triangle", halves[:0]), halves])

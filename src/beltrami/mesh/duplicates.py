@@ -7,6 +7,7 @@ from scipy.spatial import cKDTree
 
 from beltrami._arrays import Floats, Integers
 from beltrami.mesh.connectivity import component_labels
+from beltrami.mesh.geometry import well_scaled
 
 
 def merge_targets(vertices: Floats, tolerance: float = 0.0) -> Integers:
@@ -28,6 +29,7 @@ def merge_targets(vertices: Floats, tolerance: float = 0.0) -> Integers:
     if not len(points):
         return targets
     if tolerance > 0:
+        points, _ = well_scaled(points)
         reach = tolerance * float(np.linalg.norm(points.max(axis=0) - points.min(axis=0)))
         pairs = cKDTree(points).query_pairs(reach, output_type="ndarray")
         labels = component_labels(pairs, len(points))

@@ -9,9 +9,9 @@ import numpy as np
 from beltrami._arrays import Floats, Integers
 from beltrami._jit import kernel
 from beltrami.errors import check_name
+from beltrami.mesh.triangle import is_flat, measure
 
 NORMAL_WEIGHTS = ("uniform", "area", "angle")
-FLAT = 1e-12  # a face is degenerate if its area is at most this times its longest edge squared
 
 
 def in_space(vertices: Floats, faces: Integers) -> tuple[Floats, Integers]:
@@ -25,16 +25,35 @@ def in_space(vertices: Floats, faces: Integers) -> tuple[Floats, Integers]:
         return vertices, faces
     if d == 2:
         return np.concatenate([vertices, np.zeros((n, 1))], axis=1), faces
-    corners = vertices[faces]
+    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite stays so
+        return _laid_flat(vertices[faces])
+
+
+def _laid_flat(corners: Floats) -> tuple[Floats, Integers]:
+    """Lay each (3, d) triangle into a plane of its own, first side along x."""
+    m = len(corners)
     u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     length = np.linalg.norm(u, axis=1)
     along = u / np.where(length > 0, length, 1)[:, None]
     x = (v * along).sum(axis=1)
-    flat = np.zeros((len(faces), 3, 3))
+    flat = np.zeros((m, 3, 3))
     flat[:, 1, 0] = length
     flat[:, 2, 0] = x
     flat[:, 2, 1] = np.linalg.norm(v - x[:, None] * along, axis=1)
-    return flat.reshape(-1, 3), np.arange(3 * len(faces)).reshape(-1, 3)
+    return flat.reshape(-1, 3), np.arange(3 * m).reshape(-1, 3)
+
+
+def well_scaled(positions: Floats) -> tuple[Floats, float]:
+    """Return positions whose fourth powers neither underflow nor overflow, and the unit.
+
+    The unit is a power of two, so that nothing is rounded: positions = result * unit. It is 1
+    but for meshes with coordinates beyond 1e-50 or 1e50.
+    """
+    largest = float(np.abs(positions).max(initial=0.0))
+    if largest == 0 or 1e-50 < largest < 1e50 or not np.isfinite(largest):
+        return positions, 1.0
+    unit = float(2.0 ** np.floor(np.log2(largest)))
+    return positions / unit, unit
 
 
 def face_vectors(vertices: Floats, faces: Integers) -> Floats:
@@ -50,8 +69,10 @@ def face_areas(vertices: Floats, faces: Integers) -> Floats:
     >>> face_areas(np.array([[0.0, 0], [2, 0], [0, 1]]), np.array([[0, 1, 2]])).tolist()
     [1.0]
     """
-    vectors = face_vectors(vertices, faces)
-    return np.sqrt(np.einsum("fc,fc->f", vectors, vectors)) / 2
+    scaled, unit = well_scaled(vertices)
+    vectors = face_vectors(scaled, faces)
+    areas: Floats = np.sqrt(np.einsum("fc,fc->f", vectors, vectors)) / 2
+    return areas if unit == 1 else areas * unit**2
 
 
 def unit(vectors: Floats) -> Floats:
@@ -71,7 +92,7 @@ def corner_angles(vertices: Floats, faces: Integers) -> Floats:
     >>> np.degrees(right).round(9).tolist()
     [[90.0, 45.0, 45.0]]
     """
-    return np.asarray(_corner_angles(*in_space(vertices, faces)))
+    return np.asarray(_corner_angles(*in_space(well_scaled(vertices)[0], faces)))
 
 
 def vertex_normals(vertices: Floats, faces: Integers, weights: str) -> Floats:
@@ -87,7 +108,7 @@ def vertex_normals(vertices: Floats, faces: Integers, weights: str) -> Floats:
         If ``weights`` is none of the three.
     """
     check_name("weights of normals", weights, NORMAL_WEIGHTS)
-    positions, corners = in_space(vertices, faces)
+    positions, corners = in_space(well_scaled(vertices)[0], faces)
     vectors = np.asarray(_face_vectors(positions, corners))
     if weights != "area":
         vectors = unit(vectors)
@@ -104,7 +125,8 @@ def degenerate_faces(vertices: Floats, faces: Integers) -> Integers:
     The bound is area <= 1e-12 (longest edge)², so it does not depend on the unit of length.
     Faces with a coordinate that is not finite are not among them.
     """
-    return np.flatnonzero(_degenerate(*in_space(vertices, faces), faces)).astype(np.int64)
+    positions, corners = in_space(well_scaled(vertices)[0], faces)
+    return np.flatnonzero(_degenerate(positions, corners, faces)).astype(np.int64)
 
 
 @kernel
@@ -148,32 +170,14 @@ def _gather(vectors: Any, shares: Any, faces: Any, n: int) -> Any:
 
 @kernel
 def _degenerate(x: Any, corners: Any, faces: Any) -> Any:
-    """Whether area <= FLAT * longest², on sides scaled so that nothing underflows."""
+    """Whether a face names a vertex twice, or is flat; false where something is not finite."""
     out = np.zeros(faces.shape[0], np.bool_)
     for f in range(faces.shape[0]):
-        i, j, k = corners[f, 0], corners[f, 1], corners[f, 2]
-        scale = 0.0
-        for c in range(3):
-            scale = max(scale, abs(x[j, c] - x[i, c]), abs(x[k, c] - x[i, c]))
-        twice = faces[f, 0] == faces[f, 1] or faces[f, 1] == faces[f, 2]
-        if twice or faces[f, 0] == faces[f, 2] or scale == 0.0:
+        i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
+        if i == j or j == k or k == i:
             out[f] = True
             continue
-        a, b, e = (
-            (x[j, 0] - x[i, 0]) / scale,
-            (x[j, 1] - x[i, 1]) / scale,
-            (x[j, 2] - x[i, 2]) / scale,
-        )
-        p, q, r = (
-            (x[k, 0] - x[i, 0]) / scale,
-            (x[k, 1] - x[i, 1]) / scale,
-            (x[k, 2] - x[i, 2]) / scale,
-        )
-        cross = np.sqrt((b * r - e * q) ** 2 + (e * p - a * r) ** 2 + (a * q - b * p) ** 2)
-        longest = max(
-            a * a + b * b + e * e,
-            p * p + q * q + r * r,
-            (a - p) ** 2 + (b - q) ** 2 + (e - r) ** 2,
-        )
-        out[f] = cross / 2 <= 1e-12 * longest  # FLAT; false where something is NaN
+        at_i, at_j, at_k, double = measure(x, corners[f, 0], corners[f, 1], corners[f, 2])
+        finite = np.isfinite(at_i + at_j + at_k)
+        out[f] = finite and is_flat(at_i, at_j, at_k, double)
     return out

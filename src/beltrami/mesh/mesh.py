@@ -200,7 +200,8 @@ class Mesh(Frozen):
     def face_normals(self) -> Floats:
         """(m, 3) unit normals of the faces (l. 101); zero where a face is flat."""
         self._require_space("normals")
-        return read_only(geometry.unit(geometry.face_vectors(self.vertices, self.faces)))
+        vertices, _ = geometry.well_scaled(self.vertices)
+        return read_only(geometry.unit(geometry.face_vectors(vertices, self.faces)))
 
     @cached_property
     def vertex_normals(self) -> Floats:
@@ -240,7 +241,8 @@ class Mesh(Frozen):
         """
         self._require_space("a volume")
         self._require_inside()
-        x = self.vertices - self.vertices[self.faces[0, 0]]  # near by, so that digits are kept
+        x, _ = geometry.in_space(self.vertices, self.faces)
+        x = x - x[self.faces[0, 0]]  # near by, so that digits are kept
         vectors = geometry.face_vectors(x, self.faces)
         middle = x[self.faces].mean(axis=1)
         return float(np.einsum("fc,fc->", middle, vectors) / 6)

@@ -31,7 +31,7 @@ class Repair:
     vertex_origin
         (new n,) int: the old vertex that each new one was; data are carried over by it.
     done
-        One line for each repair that changed something.
+        One line for each repair that changed something, or could not.
     """
 
     mesh: Mesh
@@ -97,9 +97,9 @@ def repair(
     >>> fixed.mesh.faces.tolist(), fixed.vertex_map.tolist(), fixed.done
     ([[0, 1, 2]], [0, -1, 1, 2], ('removed 1 unreferenced vertex',))
     """
-    if tolerance < 0 or (tolerance > 0 and not merge_duplicate_vertices):
+    if not 0 <= tolerance < 1 or (tolerance > 0 and not merge_duplicate_vertices):
         raise MeshError(
-            "tolerance is a positive fraction of the diagonal, and goes with "
+            f"tolerance is a fraction of the diagonal, not {tolerance}, and goes with "
             "merge_duplicate_vertices=True"
         )
     steps: list[tuple[bool, Callable[[_Work], str]]] = [
@@ -236,7 +236,8 @@ def _inside_out(work: _Work, oriented: Integers, labels: Integers) -> Booleans:
     sums = np.bincount(labels, minlength=count)
     middle = positions[oriented].mean(axis=1)
     centre = np.stack([np.bincount(labels, middle[:, c], count) / sums for c in range(3)], axis=1)
-    moment = ((middle - centre[labels]) * face_vectors(positions, oriented)).sum(axis=1)
+    with np.errstate(invalid="ignore"):  # a component that is not finite has no inside
+        moment = ((middle - centre[labels]) * face_vectors(positions, oriented)).sum(axis=1)
     return closed & (np.bincount(labels, moment, count) < 0)
 
 

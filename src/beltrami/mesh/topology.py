@@ -22,7 +22,11 @@ from beltrami.errors import (
     NotOrientableError,
     check_name,
 )
-from beltrami.mesh.connectivity import component_labels, parity_colouring
+from beltrami.mesh.connectivity import (
+    component_labels,
+    faces_joined_by_edges,
+    parity_colouring,
+)
 from beltrami.mesh.faces import checked_faces
 from beltrami.mesh.fans import Fans, group_corners
 from beltrami.mesh.half_edges import HalfEdges, pair_sides
@@ -240,7 +244,7 @@ class Topology(Frozen):
         A face that names a vertex twice joins nothing; it has the label of its first vertex.
         """
         if check_name("way to connect faces", through, ("vertices", "edges")) == "edges":
-            return component_labels(self._face_pairs[0], self.n_faces)
+            return faces_joined_by_edges(self.face_edges, self.n_edges)
         of_vertex = component_labels(self.edges, self.n_vertices)[self.faces[:, 0]]
         _, first, labels = np.unique(of_vertex, return_index=True, return_inverse=True)
         return np.argsort(np.argsort(first))[labels].astype(np.int64)

@@ -8,10 +8,10 @@ import numpy as np
 
 from beltrami._arrays import Floats
 from beltrami._jit import kernel, unsigned
-from beltrami.mesh.geometry import in_space
+from beltrami.mesh.geometry import in_space, well_scaled
 from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.triangle import is_flat, measure, shares
 from beltrami.operators.soundness import refuse_flat_faces, require_faces, require_positions
-from beltrami.operators.triangle import is_flat, measure, shares
 
 NONE = -1  # no areas
 
@@ -38,13 +38,14 @@ def accumulate(mesh: Mesh, cotangents: bool, areas: int) -> tuple[Floats, Floats
     topology = mesh.topology
     require_faces(topology)
     require_positions(mesh)
-    positions, corners = in_space(mesh.vertices, mesh.faces)
+    scaled, unit = well_scaled(mesh.vertices)
+    positions, corners = in_space(scaled, mesh.faces)
     weights = np.zeros(topology.n_edges if cotangents else 0)
     sums = np.zeros(0 if areas == NONE else mesh.n_vertices)
     sides, named = unsigned(topology.face_edges), unsigned(mesh.faces)
     if _accumulate(positions, unsigned(corners), named, sides, areas, weights, sums):
         refuse_flat_faces(mesh)
-    return weights, sums
+    return weights, sums if unit == 1 else sums * unit**2
 
 
 @kernel

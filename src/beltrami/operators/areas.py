@@ -9,8 +9,8 @@ from beltrami._arrays import Floats
 from beltrami.errors import check_name
 from beltrami.mesh.edge_matrix import symmetric_matrix
 from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.triangle import BARYCENTRIC, CIRCUMCENTRIC, VORONOI
 from beltrami.operators.accumulate import accumulate
-from beltrami.operators.triangle import BARYCENTRIC, CIRCUMCENTRIC, VORONOI
 
 AREA_KINDS = {"barycentric": BARYCENTRIC, "voronoi": VORONOI, "circumcentric": CIRCUMCENTRIC}
 

@@ -9,11 +9,11 @@ import numpy as np
 from beltrami._arrays import Floats, Integers
 from beltrami._jit import kernel
 from beltrami.errors import DimensionError
-from beltrami.mesh.geometry import in_space
+from beltrami.mesh.geometry import in_space, well_scaled
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
+from beltrami.mesh.triangle import measure, shares
 from beltrami.operators.areas import AREA_KINDS
-from beltrami.operators.triangle import measure, shares
 
 
 def largest_face_eigenvalue(side_weights: Floats, corner_masses: Floats) -> float:
@@ -43,7 +43,8 @@ def largest_face_eigenvalue(side_weights: Floats, corner_masses: Floats) -> floa
 def side_weights(domain: Mesh | Topology, edge_weight: Floats, kind: str) -> Floats:
     """Split the weights of the edges among their faces: cotangents as they come, others evenly."""
     if kind == "cotangent" and isinstance(domain, Mesh):
-        return np.asarray(_half_cotangents(*in_space(domain.vertices, domain.faces)))
+        scaled, _ = well_scaled(domain.vertices)
+        return np.asarray(_half_cotangents(*in_space(scaled, domain.faces)))
     topology = domain.topology if isinstance(domain, Mesh) else domain
     per_face = edge_weight / topology.half_edges.edge_face_count
     return np.asarray(per_face[topology.face_edges])
@@ -64,8 +65,9 @@ def corner_masses(domain: Mesh | Topology, sides: Floats, kind: str) -> Floats:
         raise DimensionError(f"the {kind} mass needs the positions of the vertices")
     if kind == "consistent":  # (A/12)⁻¹ L_f has the eigenvalues of the pair, because L_f 1 = 0
         return np.repeat(domain.face_areas[:, None] / 12, 3, axis=1)
-    positions, corners = in_space(domain.vertices, domain.faces)
-    return np.asarray(_corner_areas(positions, corners, AREA_KINDS[kind]))
+    scaled, unit = well_scaled(domain.vertices)
+    positions, corners = in_space(scaled, domain.faces)
+    return np.asarray(_corner_areas(positions, corners, AREA_KINDS[kind])) * unit**2
 
 
 def largest_edge_eigenvalue(

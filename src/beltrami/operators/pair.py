@@ -108,11 +108,13 @@ class Laplacian:
         Raises NegativeWeightError, with the edges, if a weight is negative.
         """
         self.require_non_negative("averaging")
+        self._require_degrees()
         return csr_array(diagonal_matrix(1 / self.degrees) @ self.weights)
 
     @cached_property
     def normalized(self) -> csr_array:
         r"""(n, n) :math:`\tilde L = D^{-1/2} L D^{-1/2}`, unit diagonal (definition 15, E43)."""
+        self._require_degrees()
         root = diagonal_matrix(1 / np.sqrt(self.degrees))
         return csr_array(root @ self.stiffness @ root)
 
@@ -124,7 +126,8 @@ class Laplacian:
     @cached_property
     def gradient(self) -> csr_array:
         """(p, n) edge gradient G with G'G = L (theorem 6); NegativeWeightError if w < 0 (E40)."""
-        return edge_gradient(self.edges, self.edge_weight, self.n)
+        slightly = (self.edge_weight < 0) & (self.edge_weight >= -self._rounding)
+        return edge_gradient(self.edges, np.where(slightly, 0, self.edge_weight), self.n)
 
     # ---------------------------------------------------------------- functions
 
@@ -156,10 +159,9 @@ class Laplacian:
     @cached_property
     def properties(self) -> LaplacianProperties:
         """What is true of these weights on this mesh."""
-        negative = self.edges[self.edge_weight < 0]
         return LaplacianProperties(
-            non_negative_weights=not len(negative),
-            negative_edges=read_only(negative),
+            non_negative_weights=not len(self._negative_edges),
+            negative_edges=self._negative_edges,
             linear_precision=self.weight_kind == "cotangent",
             spectral_bound=self.spectral_bound(),
         )
@@ -183,12 +185,31 @@ class Laplacian:
 
     def require_non_negative(self, what: str) -> None:
         """Raise NegativeWeightError, with the edges, if a weight is negative."""
-        if (self.edge_weight < 0).any():
+        if len(self._negative_edges):
             raise NegativeWeightError(
                 f"{what} needs non-negative weights, and some {self.weight_kind} ones are negative",
-                edges=self.edges[self.edge_weight < 0],
+                edges=self._negative_edges,
                 remedy='Use laplacian(mesh, "combinatorial") or "distance", or heat(), which '
                 "needs no sign.",
+            )
+
+    @cached_property
+    def _negative_edges(self) -> Integers:
+        """Return the edges with a negative weight."""
+        return read_only(self.edges[self.edge_weight < -self._rounding])
+
+    @property
+    def _rounding(self) -> float:
+        """What a weight may be off: the cotangents of right angles come out as ±1e-16."""
+        return 1e-12 if self.weight_kind == "cotangent" else 0.0
+
+    def _require_degrees(self) -> None:
+        alone = np.flatnonzero(self.degrees <= 0)
+        if len(alone):
+            raise MeshError(
+                "D has no inverse: vertices have no positive degree",
+                vertices=alone,
+                remedy="Leave them out of the graph.",
             )
 
     def _require_diagonal(self, what: str) -> None:

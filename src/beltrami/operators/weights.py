@@ -66,11 +66,12 @@ def weigh_edges(domain: Mesh | Topology, kind: str) -> Floats:
     check_name("weights", kind, WEIGHTS)
     topology = domain.topology if isinstance(domain, Mesh) else domain
     require_faces(topology)
+    if isinstance(domain, Mesh):
+        require_positions(domain)
     if kind == "combinatorial":
         return np.ones(topology.n_edges)
     if not isinstance(domain, Mesh):
         raise DimensionError(f"{kind} weights need the positions of the vertices: give a Mesh")
-    require_positions(domain)
     return _distance_weights(domain) if kind == "distance" else accumulate(domain, True, NONE)[0]
 
 

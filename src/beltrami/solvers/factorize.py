@@ -66,4 +66,4 @@ def factorize(A: Any, coordinates: ArrayLike | None = None, backend: str = "auto
     scale = abs(matrix.data).max(initial=0.0)
     symmetric = difference.nnz == 0 or float(difference.max()) <= 1e-14 * scale
     solver = factorize_superlu(matrix, symmetric)
-    return Factor(n, "superlu", int(solver.L.nnz + solver.U.nnz), solver)
+    return Factor(n, "superlu", int(solver.nnz), solver)

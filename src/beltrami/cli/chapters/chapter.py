@@ -57,7 +57,7 @@ class Stage:
     Attributes
     ----------
     name
-        What the mesh is called on the command line.
+        What the mesh is called on the command line, in the folder of the tour.
     mesh, folder
         The mesh, and where results go.
     up, view

@@ -90,9 +90,7 @@ def _denoising(stage: Stage) -> tuple[Figure, ...]:
             "Noise of 0.3 mean edges along the normals, then the heat of the coordinates. The "
             "distance to the clean mesh has a minimum in t.",
             [noisy, *cleaned],
-            caption=[
-                f"{text}, error {error:.3f}" for text, error in zip(captions, errors, strict=True)
-            ],
+            caption=captions,
             columns=2,
             camera="common",
         ),

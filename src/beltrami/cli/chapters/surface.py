@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from beltrami.cli.chapters.chapter import Chapter, Stage, number
+from beltrami.cli.remedies import as_commands
 from beltrami.display.light import SpotLight, light_intensity
 from beltrami.mesh.diagnose import diagnose
 
@@ -16,11 +17,13 @@ def surface(stage: Stage) -> Chapter:
     angles = np.degrees(mesh.corner_angles)
     rows = (
         ("vertices, edges, faces", f"{mesh.n_vertices}, {diagnosis.n_edges}, {mesh.n_faces}"),
-        ("components, boundary loops", f"{diagnosis.n_components}, {diagnosis.n_boundary_loops}"),
-        ("Euler characteristic, genus", f"{diagnosis.euler_characteristic}, {diagnosis.genus}"),
-        ("manifold, oriented", f"{diagnosis.is_manifold}, {diagnosis.is_oriented}"),
+        ("components", str(diagnosis.n_components)),
+        ("boundary loops", _or_undefined(diagnosis.n_boundary_loops)),
+        ("Euler characteristic", str(diagnosis.euler_characteristic)),
+        ("genus", _or_undefined(diagnosis.genus)),
+        ("manifold, oriented", f"{_said(diagnosis.is_manifold)}, {_said(diagnosis.is_oriented)}"),
         ("area", number(diagnosis.area)),
-        ("volume", "open" if diagnosis.volume is None else number(diagnosis.volume)),
+        ("volume", "undefined" if diagnosis.volume is None else number(diagnosis.volume)),
         ("mean edge length", number(float(mesh.edge_lengths.mean()))),
         ("smallest, largest angle", f"{angles.min():.1f}°, {angles.max():.1f}°"),
         ("faces with an obtuse angle", f"{(angles > 90).any(axis=1).mean():.1%}"),
@@ -56,11 +59,19 @@ def surface(stage: Stage) -> Chapter:
     return Chapter(
         "The surface",
         "3.1",
-        tuple(diagnosis.report().splitlines()[4:]),
+        tuple(as_commands(line).removeprefix("- ") for line in diagnosis.report().splitlines()[4:]),
         (("quantity", "value"), *rows),
         tuple(figures),
         commands=(f"beltrami info {stage.name}", f"beltrami render {stage.name} -o surface.png"),
     )
+
+
+def _or_undefined(count: int | None) -> str:
+    return "undefined" if count is None else str(count)
+
+
+def _said(truth: bool) -> str:
+    return "yes" if truth else "no"
 
 
 def _farthest(vertices: np.ndarray) -> int:

@@ -1,0 +1,45 @@
+"""Outputs are checked before the work, so that no work is lost for a name."""
+
+from __future__ import annotations
+
+import errno
+import os
+from pathlib import Path
+
+VALUES = (".npy", ".txt", ".csv", ".ply")  # what values can be written to
+
+
+def check_mesh_output(path: Path) -> None:
+    """Raise now what writing a mesh to ``path`` would raise after the work."""
+    from beltrami.io import extras
+    from beltrami.io.registry import WRITERS, suffix_of
+
+    _check_place(path)
+    suffix_of(path, None, (*WRITERS, *extras.WRITERS))
+
+
+def check_values_output(path: Path) -> None:
+    """Raise now what writing values to ``path`` would raise after the work."""
+    from beltrami.errors import check_name
+
+    _check_place(path)
+    check_name("format for values", path.suffix.lower(), VALUES)
+
+
+def check_picture_output(path: Path) -> None:
+    """Raise now what writing a picture to ``path`` would raise after the work."""
+    from beltrami.display.images import check_suffix
+
+    _check_place(path)
+    check_suffix(path)
+
+
+def _check_place(path: Path) -> None:
+    """Refuse a directory, and a folder that is not there or cannot be written."""
+    place = Path(os.path.realpath(path))
+    if place.is_dir():
+        raise IsADirectoryError(errno.EISDIR, "Is a directory: name a file in it", str(path))
+    if not place.parent.is_dir():
+        raise FileNotFoundError(errno.ENOENT, "No such folder: make it first", str(path.parent))
+    if not os.access(place.parent, os.W_OK):
+        raise PermissionError(errno.EACCES, "Folder cannot be written", str(path.parent))

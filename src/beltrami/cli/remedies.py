@@ -1,0 +1,45 @@
+"""Remedies of the library, said in the words of the command line."""
+
+from __future__ import annotations
+
+import inspect
+import re
+
+
+def as_commands(text: str) -> str:
+    """Turn calls and keywords in a message into the commands and options that do the same.
+
+    Examples
+    --------
+    >>> as_commands("Drop them with repair(mesh, remove_unreferenced=True).")
+    'Drop them with `beltrami repair --remove-unreferenced`.'
+    >>> as_commands("repair: split_non_manifold cuts there; remove_duplicate_faces first.")
+    '`beltrami repair --split-non-manifold` cuts there; --remove-duplicate-faces first.'
+    >>> as_commands('Use laplacian(mesh, "combinatorial") or "distance", or heat(), not this.')
+    'Use --weights combinatorial or distance, or --method implicit, not this.'
+    """
+    text = re.sub(r"repair\(mesh, ([^)]*)\)", _call, text)
+    text = re.sub(rf"\brepair: ({_repairs()})\b", _command, text)
+    text = re.sub(rf"\b({_repairs()})(=True)?\b(?!\s*=)", lambda found: _option(found[1]), text)
+    text = re.sub(r'laplacian\(mesh, "(\w+)"\) or "(\w+)"', r"--weights \1 or \2", text)
+    return text.replace("heat()", "--method implicit")
+
+
+def _repairs() -> str:
+    """Return the names of the repairs that cannot be words of a sentence, as alternatives."""
+    from beltrami.mesh.repair import repair
+
+    return "|".join([name for name in inspect.signature(repair).parameters if "_" in name])
+
+
+def _call(call: re.Match[str]) -> str:
+    options = " ".join(_option(name) for name in re.findall(r"(\w+)=", call[1]))
+    return f"`beltrami repair {options}`"
+
+
+def _command(found: re.Match[str]) -> str:
+    return f"`beltrami repair {_option(found[1])}`"
+
+
+def _option(name: str) -> str:
+    return "--" + name.replace("_", "-")

@@ -1,0 +1,35 @@
+"""Equation 3.7: ((1 + δ) Id - δ D⁻¹W) F' = F, made symmetric: (D + δL) F' = D F (E54)."""
+
+import numpy as np
+import pytest
+
+import dense_oracles as oracle
+from beltrami.diffusion.heat import heat
+from beltrami.operators.laplacian import laplacian
+from meshes_of_the_errata import IRREGULAR, MESHES
+
+
+@pytest.mark.parametrize("name", IRREGULAR)
+@pytest.mark.parametrize("weights", ["combinatorial", "cotangent"])
+@pytest.mark.parametrize("delta", [0.5, 5.0, 1000.0])
+def test_it_solves_the_printed_equation(name, weights, delta):
+    mesh = MESHES[name]()
+    pair = laplacian(mesh, weights, "degree")
+    W = oracle.weights(mesh, weights)
+    A = W / W.sum(axis=1)[:, None]
+    f = oracle.rough_functions(mesh)
+    printed = (1 + delta) * np.eye(len(W)) - delta * A
+    assert np.abs(printed - printed.T).max() > 0.05  # right, but not symmetric
+    got = heat(pair, f, delta, steps=1)
+    assert np.allclose(printed @ got, f, atol=1e-8 * max(1, delta))
+    assert np.allclose(got, np.linalg.solve(printed, f), rtol=1e-7, atol=1e-8)
+
+
+@pytest.mark.parametrize("name", IRREGULAR)
+def test_the_symbol_is_one_over_one_plus_delta_lambda(name):
+    mesh = MESHES[name]()
+    pair = laplacian(mesh, "cotangent", "degree")
+    values, U = np.linalg.eigh(pair.normalized.toarray())
+    modes = U / np.sqrt(pair.degrees)[:, None]
+    got = heat(pair, modes, 3.0, steps=1)
+    assert np.allclose(got, modes / (1 + 3 * values), atol=1e-9)
