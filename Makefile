@@ -19,8 +19,8 @@ tour: $(VENV)/.installed  ## the whole of it on the embedded shape; results in .
 	$(BIN)/beltrami tour -o tour
 
 test: $(VENV)/.installed  ## lint, types, import rule and every unmarked test
-	$(BIN)/ruff check src tests benchmarks
-	$(BIN)/ruff format --check src tests benchmarks
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
 	$(BIN)/mypy
 	$(BIN)/python -m pytest
 

@@ -37,8 +37,8 @@ def test_a_function_is_smoothed_on_its_mesh(beltrami, sphere, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "code", "text"),
     [
-        (("--time", 1), 1, "'averaging' has no time"),
-        (("--method", "implicit", "--step", 1, "--time", 1), 1, "'implicit' has no step"),
+        (("--time", 1), 2, "--method implicit or explicit"),
+        (("--method", "implicit", "--step", 1, "--time", 1), 2, "--method averaging"),
         (("--method", "averging"), 1, "Did you mean 'averaging'?"),
         (("--weights", "cotangens"), 1, "Did you mean 'cotangent'?"),
         (("--step", 9), 1, "the longest allowed is"),

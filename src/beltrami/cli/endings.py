@@ -19,7 +19,8 @@ BAD_INPUT = 1
 def ending_well(verb: Callable[P, R]) -> Callable[P, R]:
     """Let a verb end with one line on stderr and an exit code, whatever went wrong outside of it.
 
-    Bad input and failed reading or writing is 1; bad usage, which is not for here, is 2. Any other exception is a mistake of ours and is shown with its traceback.
+    Bad input and failed reading or writing is 1; bad usage, which is not for here, is 2.
+    Any other exception is a mistake of ours and is shown with its traceback.
     """
 
     @functools.wraps(verb)

@@ -36,7 +36,7 @@ def surface(stage: Stage) -> Chapter:
             "Its faces from near.",
             mesh,
             zoom=6,
-            focus=mesh.vertices[_farthest(mesh.vertices)],
+            focus=_farthest(mesh.vertices),
             wireframe=True,
             shading="flat",
         ),
@@ -74,6 +74,7 @@ def _said(truth: bool) -> str:
     return "yes" if truth else "no"
 
 
-def _farthest(vertices: np.ndarray) -> int:
-    """Return the vertex farthest from the middle: a place with something to see."""
-    return int(((vertices - vertices.mean(axis=0)) ** 2).sum(axis=1).argmax())
+def _farthest(vertices: np.ndarray) -> np.ndarray:
+    """Return the vertex farthest from the middle, in space: a place with something to see."""
+    place = vertices[((vertices - vertices.mean(axis=0)) ** 2).sum(axis=1).argmax()]
+    return np.pad(place, (0, 3 - len(place)))

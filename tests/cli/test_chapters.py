@@ -1,0 +1,69 @@
+import numpy as np
+import pytest
+
+from beltrami.cli.chapters.averaging import averaging
+from beltrami.cli.chapters.chapter import Stage
+from beltrami.cli.chapters.files import files
+from beltrami.cli.chapters.heat import heat
+from beltrami.cli.chapters.operators import operators
+from beltrami.cli.chapters.surface import surface
+from beltrami.io.registry import read_mesh
+from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.shapes import grid, icosphere
+
+TETRAHEDRON_FACES = [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]]
+MESHES = {
+    "closed": icosphere(2),
+    "open": grid(6, 5),
+    "planar": Mesh([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]]),
+    "triangle": Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]),
+    "fan": Mesh(
+        [[0, 0, 0], [0, 0, 1], [1, 0, 0], [-1, 1, 0], [-1, -1, 0]],
+        [[0, 1, 2], [0, 1, 3], [0, 1, 4]],
+    ),
+    "two parts": Mesh(
+        np.concatenate([np.eye(4, 3), np.eye(4, 3) + 5]),
+        np.concatenate([TETRAHEDRON_FACES, np.add(TETRAHEDRON_FACES, 4)]),
+    ),
+}
+CHAPTERS = (surface, operators, averaging, heat, files)
+
+
+def stage(mesh, folder):
+    return Stage("mesh.ply", mesh, folder, "y", None)
+
+
+@pytest.mark.parametrize("mesh", MESHES.values(), ids=MESHES)
+@pytest.mark.parametrize("act", CHAPTERS, ids=lambda act: act.__name__)
+def test_each_chapter_plays_on_each_mesh(act, mesh, tmp_path):
+    chapter = act(stage(mesh, tmp_path))
+    assert all(len(row) == len(chapter.rows[0]) for row in chapter.rows)
+    assert not {"nan", "inf", "None"} & {cell for row in chapter.rows for cell in row}
+    named = {figure.name for figure in chapter.figures} | {name for name, _ in chapter.files}
+    assert named == {path.name for path in tmp_path.iterdir()}
+
+
+def test_heat_tells_the_numbers_of_its_states(tmp_path):
+    chapter = heat(stage(MESHES["closed"], tmp_path))
+    assert [row[3] for row in chapter.rows[1:]] == ["1.000000000000"] * 4
+    state = read_mesh(tmp_path / "heat.ply").vertex_data["heat"]
+    assert chapter.rows[3][2] == f"{state.max():.4g}"
+
+
+def test_the_volume_of_an_open_mesh_is_not_told(tmp_path):
+    rows = dict(row[:2] for row in surface(stage(MESHES["open"], tmp_path)).rows)
+    assert rows["volume"] == "undefined"
+    rows = dict(row[:2] for row in surface(stage(MESHES["closed"], tmp_path)).rows)
+    assert rows["volume"] == f"{MESHES['closed'].volume:.4g}"
+
+
+def test_half_the_cotangent_energy_is_the_area(tmp_path):
+    rows = {row[0]: row for row in operators(stage(MESHES["closed"], tmp_path)).rows}
+    assert rows["cotangent"][-1] == f"{MESHES['closed'].area:.4g}"
+
+
+def test_files_come_back(tmp_path):
+    rows = {row[0]: row for row in files(stage(MESHES["closed"], tmp_path)).rows}
+    for suffix in (".obj", ".off", ".ply"):
+        assert rows[suffix][2:4] == ("320", "0.0e+00")
+    assert 0 < float(rows[".stl"][3]) < 1e-7

@@ -1,0 +1,68 @@
+"""The documents are true: the README's code runs, its commands exist, the example draws."""
+
+import re
+import runpy
+from pathlib import Path
+
+import pytest
+from PIL import Image
+from typer.testing import CliRunner
+
+from beltrami.cli.app import app
+
+ROOT = Path(__file__).parents[1]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def size_of(path: Path) -> tuple[int, int]:
+    with Image.open(path) as picture:
+        return picture.size
+
+
+def test_the_code_of_the_readme_runs(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    scope: dict[str, object] = {}
+    for block in re.findall(r"```python\n(.*?)```", README, re.DOTALL):
+        exec(compile(block, "README.md", "exec"), scope)  # noqa: S102
+    printed = capsys.readouterr().out
+    assert "no defects" in printed
+    assert "1 of 4 vertices belong to no face (vertices 3). Drop them with repair(" in printed
+    assert "('removed 1 unreferenced vertex',) [ 0  1  2 -1]" in printed
+    assert (tmp_path / "smoother.ply").is_file()
+    assert size_of(tmp_path / "picture.png")[0] == 1600
+
+
+def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    lines = [(-0.9, -0.4, 0.1), (0.8, -0.5, 0), (0, 0.9, 0.2), (0.1, 0, 1), (9, 9, 9)]
+    faces = "4 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n".replace("4 0", "3 0", 1)
+    text = "OFF\n5 4 0\n" + "\n".join(" ".join(map(str, x)) for x in lines) + "\n" + faces
+    (tmp_path / "scan.off").write_text(text)
+    commands = re.findall(r"^    beltrami (.*?)(?:  +#.*)?$", README, re.MULTILINE)
+    commands = [c for c in commands if not c.startswith("tour -o")]
+    assert len(commands) == 6
+    for command in commands:
+        words = command.replace("scan.ply", "scan.off").replace("--source 42", "--source 2")
+        done = CliRunner().invoke(app, words.split())
+        assert done.exit_code == 0, (command, done.output)
+    assert (tmp_path / "tour" / "index.html").is_file()
+
+
+@pytest.mark.parametrize("name", ["ARCHITECTURE", "CONTRIBUTING", "README", "docs/conventions"])
+def test_links_lead_somewhere(name):
+    path = ROOT / f"{name}.md"
+    for target in re.findall(r"\]\(([^)#]+)\)", path.read_text(encoding="utf-8")):
+        assert (path.parent / target).exists(), target
+
+
+def test_the_rooms_are_those_of_the_plan():
+    plan = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    rooms = {p.name for p in (ROOT / "src/beltrami").iterdir() if p.is_dir()} - {"__pycache__"}
+    assert {room for room in rooms if f"{room}/" in plan} == rooms
+
+
+def test_the_picture_of_the_readme_is_made_by_the_example(tmp_path):
+    example = runpy.run_path(str(ROOT / "examples/readme_picture.py"))
+    kept = example["main"](str(tmp_path / "blob.png"))
+    assert 0.6 < kept < 0.75  # smoothing without keep="volume" shrinks
+    assert size_of(tmp_path / "blob.png") == size_of(ROOT / "docs/images/blob.png")
