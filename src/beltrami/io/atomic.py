@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import tempfile
 from collections.abc import Iterator
@@ -36,6 +37,8 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[IO[bytes]]:
     place = Path(os.path.realpath(path))
     if place.is_dir():
         raise IsADirectoryError(f"{place} is a directory: name a file to write")
+    if not place.parent.is_dir():
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(place.parent))
     descriptor, temporary = tempfile.mkstemp(prefix=f".{place.name[:40]}.", dir=place.parent)
     try:
         with os.fdopen(descriptor, "wb") as file:

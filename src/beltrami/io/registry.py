@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, require_finite
-from beltrami.errors import DimensionError, EmptyMeshError, check_name
+from beltrami.errors import DimensionError, EmptyMeshError, FileFormatError, check_name
 from beltrami.io import extras
 from beltrami.io.atomic import replacing
 from beltrami.io.obj import read_obj
@@ -81,6 +81,8 @@ def read_mesh(path: str | os.PathLike[str], format: str | None = None) -> Mesh: 
     ...     read_mesh(place).faces.tolist()
     [[0, 1, 2]]
     """
+    if Path(path).is_dir():
+        raise FileFormatError(path, "expected a file, found a directory. Name a file in it")
     suffix = suffix_of(path, format, (*READERS, *extras.READERS))
     if suffix in READERS:
         return READERS[suffix](load(path))

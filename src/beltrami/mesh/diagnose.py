@@ -98,21 +98,25 @@ class Diagnosis:
         return plain | {"is_clean": self.is_clean, "remedies": remedies}
 
     def _facts(self) -> list[str]:
-        loops = "no loops (it meets non-manifold edges)"
-        if self.n_boundary_loops is not None:
-            loops = f"{self.n_boundary_loops} loop" + ("s" if self.n_boundary_loops != 1 else "")
-        boundary = "closed" if self.is_closed else f"boundary of {loops}"
+        boundary = f"boundary of {len(self.boundary_edges)} edges that meet non-manifold ones"
+        if self.is_closed:
+            boundary = "closed"
+        elif self.n_boundary_loops is not None:
+            boundary = f"boundary of {_counted(self.n_boundary_loops, 'loop')}"
         genus = "genus undefined" if self.genus is None else f"genus {self.genus}"
         inside = "" if self.volume is None else f", volume {self.volume:.6g}"
         return [
-            f"{self.n_vertices} vertices, {self.n_edges} edges, {self.n_faces} faces, "
-            f"{self.n_components} component" + ("s" if self.n_components != 1 else ""),
+            f"{_counted(self.n_vertices, 'vertex', 'vertices')}, "
+            f"{_counted(self.n_edges, 'edge')}, {_counted(self.n_faces, 'face')}, "
+            f"{_counted(self.n_components, 'component')}",
             f"{boundary}, {genus}, Euler characteristic {self.euler_characteristic}",
             f"{'manifold' if self.is_manifold else 'not manifold'}, "
             + ("oriented" if self.is_oriented else "not consistently oriented")
             + ("" if self.is_orientable else " (and not orientable)"),
             f"area {self.area:.6g}{inside}",
-            "no defects" if self.is_clean else f"{len(self.defects)} kinds of defects:",
+            "no defects"
+            if self.is_clean
+            else f"{_counted(len(self.defects), 'kind', 'kinds')} of defects:",
         ]
 
 
@@ -151,7 +155,7 @@ _CURES = (
         "inconsistent_edges",
         "inconsistently oriented edges",
         "edges",
-        "repair: orient turns faces until neighbours agree (a Moebius strip never does).",
+        "repair: orient turns faces until neighbours agree, if the surface is orientable.",
     ),
     (
         "unreferenced_vertices",
@@ -168,6 +172,10 @@ _CURES = (
 )
 
 
+def _counted(count: int, one: str, many: str | None = None) -> str:
+    return f"{count} {one if count == 1 else many or one + 's'}"
+
+
 def diagnose(mesh: Mesh) -> Diagnosis:
     """Name every defect of a mesh with its indices, and say what to do.
 
@@ -177,11 +185,11 @@ def diagnose(mesh: Mesh) -> Diagnosis:
     --------
     >>> stray = Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 5, 5]], [[0, 1, 2]])
     >>> print(diagnose(stray).report())
-    4 vertices, 3 edges, 1 faces, 1 component
+    4 vertices, 3 edges, 1 face, 1 component
     boundary of 1 loop, genus 0, Euler characteristic 1
     manifold, oriented
     area 0.5
-    1 kinds of defects:
+    1 kind of defects:
     - 1 unreferenced vertices (in no face): vertices 3. repair: remove_unreferenced drops them.
     """
     topology = mesh.topology

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Integers, frozen, rectangular
+from beltrami._jit import unsigned
 from beltrami.errors import DimensionError, MeshError
 
 
@@ -32,7 +33,7 @@ def checked_faces(faces: ArrayLike, n_vertices: int | None) -> tuple[Integers, i
     n = int(array.max(initial=-1)) + 1 if n_vertices is None else int(n_vertices)
     if n < 0:
         raise MeshError(f"the number of vertices cannot be {n}")
-    if len(array) and (array.min() < 0 or array.max() >= n):
+    if len(array) and unsigned(array).max() >= n:  # a negative index is a huge unsigned one
         raise MeshError(
             f"faces name vertices outside 0..{n - 1}",
             faces=np.flatnonzero(((array < 0) | (array >= n)).any(axis=1)),

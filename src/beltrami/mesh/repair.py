@@ -97,10 +97,10 @@ def repair(
     >>> fixed.mesh.faces.tolist(), fixed.vertex_map.tolist(), fixed.done
     ([[0, 1, 2]], [0, -1, 1, 2], ('removed 1 unreferenced vertex',))
     """
-    if not 0 <= tolerance < 1 or (tolerance > 0 and not merge_duplicate_vertices):
+    if not 0 <= tolerance <= 0.1 or (tolerance > 0 and not merge_duplicate_vertices):
         raise MeshError(
-            f"tolerance is a fraction of the diagonal, not {tolerance}, and goes with "
-            "merge_duplicate_vertices=True"
+            f"tolerance is a fraction of the diagonal, at most 0.1 and not {tolerance}, "
+            "and goes with merge_duplicate_vertices=True"
         )
     steps: list[tuple[bool, Callable[[_Work], str]]] = [
         (remove_non_finite, _remove_non_finite),
