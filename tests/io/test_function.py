@@ -74,6 +74,12 @@ def test_vertex_data(tmp_path):
         read_function(tmp_path / "b.ply")
 
 
+def test_a_mesh_without_data(tmp_path):
+    write_mesh(tmp_path / "bare.ply", Mesh(np.eye(3), [[0, 1, 2]]))
+    with pytest.raises(FileFormatError, match="expected data on the vertices"):
+        read_function(tmp_path / "bare.ply")
+
+
 def test_gifti_and_freesurfer(tmp_path):
     nibabel = pytest.importorskip("nibabel")
     f = np.arange(6, dtype=np.float32)

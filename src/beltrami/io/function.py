@@ -63,9 +63,6 @@ def read_function(path: str | os.PathLike[str], name: str | None = None) -> Floa
             raise FileFormatError(place, "expected data on the vertices, found only a mesh")
         if name is None and len(data) == 1:
             name = next(iter(data))
-        if name is None:
-            names = ", ".join(map(repr, data))
-            raise FileFormatError(place, f"it has several functions: name one of {names}")
         values = data[check_name("vertex data", name, tuple(data))]
     else:
         if place.is_dir():
