@@ -56,7 +56,7 @@ def read_ply(source: Source) -> Mesh:
             else read_text(source, position, element, wanted)
         )
         if element.name == "vertex":
-            vertices, data = _split(source, element, scalars, first)
+            vertices, data = _split(source, scalars, first)
         elif found is not None:
             pieces.append((_triangles(source, element, *found, first), first))
     if not header.order:
@@ -85,15 +85,13 @@ def _wanted(source: Source, element: Element) -> str | None:
 
 
 def _split(
-    source: Source, element: Element, scalars: dict[str, NDArray[Any]], first: int
+    source: Source, scalars: dict[str, NDArray[Any]], first: int
 ) -> tuple[NDArray[np.float64], dict[str, NDArray[Any]]]:
     """Part the coordinates of the vertices, checked, from their data."""
     for axis in "xyz":
         if axis not in scalars:
             raise FileFormatError(source.path, f"expected a property {axis!r} of the vertices")
-    vertices = np.empty((element.rows, 3))
-    for c, axis in enumerate("xyz"):
-        vertices[:, c] = scalars[axis]
+    vertices = _side_by_side(*(scalars[axis] for axis in "xyz"))
     total = vertices.sum()  # one pass: NaN or infinite if a coordinate is, or if it overflows
     if not np.isfinite(total) and not np.isfinite(vertices).all():
         row = int(np.flatnonzero(~np.isfinite(vertices).all(axis=1))[0])
@@ -106,11 +104,26 @@ def _split(
     return vertices, grouped(rest)
 
 
+def _side_by_side(x: NDArray[Any], y: NDArray[Any], z: NDArray[Any]) -> NDArray[np.float64]:
+    """Return (n, 3) float64; in one go where the columns lie next to each other in the file."""
+    size = x.itemsize
+    places = [column.__array_interface__["data"][0] for column in (x, y, z)]
+    alike = x.dtype == y.dtype == z.dtype and x.strides == y.strides == z.strides
+    if alike and places == [places[0] + c * size for c in range(3)] and x.strides[0] >= 3 * size:
+        rows = np.lib.stride_tricks.as_strided(x, (len(x), 3), (x.strides[0], size))
+        return rows.astype(np.float64)
+    return np.stack([x, y, z], axis=1).astype(np.float64)
+
+
 def _triangles(
-    source: Source, element: Element, values: Integers, lengths: Integers, first: int
+    source: Source, element: Element, values: Integers, lengths: Integers | int, first: int
 ) -> Integers:
     if element.name == "tristrips":
-        return unroll(values)
+        return unroll(values.ravel())
+    if isinstance(lengths, int):
+        if lengths == 3:
+            return values.reshape(-1, 3)
+        values, lengths = values.ravel(), np.full(element.rows, lengths)
     if len(lengths) and lengths.min() < 3:
         row = int(np.argmax(lengths < 3))
         raise source.at_byte(

@@ -15,8 +15,10 @@ from beltrami.io.source import Source
 
 def read_binary(
     source: Source, start: int, element: Element, order: str, wanted: str | None
-) -> tuple[dict[str, NDArray[Any]], tuple[Integers, Integers] | None, int]:
+) -> tuple[dict[str, NDArray[Any]], tuple[Integers, Integers | int] | None, int]:
     """Read the rows of an element: scalars by name, one list (values, lengths), the position.
+
+    The lengths are one number where all are equal.
 
     Raises
     ------
@@ -25,6 +27,9 @@ def read_binary(
     """
     if not element.properties:
         return {}, None, start
+    triangles = _plain_triangles(source, start, element, order, wanted)
+    if triangles is not None:
+        return {}, (triangles, 3), start + 13 * element.rows
     names = [p.name for p in element.properties]
     which = names.index(wanted) if wanted in names else -1
     if not any(p.length for p in element.properties):
@@ -41,9 +46,46 @@ def read_binary(
         found = None
         if which >= 0:
             values = rows[f"p{which}"].reshape(len(rows), -1)
-            found = values.astype(np.int64).ravel(), np.full(len(rows), values.shape[1])
+            found = values.astype(np.int64), values.shape[1]
         return scalars, found, start + rows.nbytes
     return _read_irregular(source, start, element, order, which)
+
+
+def _plain_triangles(
+    source: Source, start: int, element: Element, order: str, wanted: str | None
+) -> Integers | None:
+    """Read what nearly every file holds, rows of a byte 3 and three integers of four bytes.
+
+    None if the rows are anything else; the general way then says what they are.
+    """
+    kinds = [(p.name, p.length, p.type) for p in element.properties]
+    if order != "<" or kinds not in ([(wanted, "u1", "i4")], [(wanted, "u1", "u4")]):
+        return None
+    if 13 * element.rows > len(source.data) - start:
+        return None
+    faces = np.empty((element.rows, 3), np.int64)
+    unbroken = _unpack_triangles(source.data[start:], kinds[0][2] == "i4", faces)
+    return faces if unbroken else None
+
+
+@kernel
+def _unpack_triangles(b: Any, signed: bool, faces: Any) -> bool:
+    """Unpack rows of 13 bytes; say whether each begins with 3."""
+    p = 0
+    for f in range(faces.shape[0]):
+        if b[p] != 3:
+            return False
+        for c in range(3):
+            q = p + 1 + 4 * c
+            value = (
+                np.uint32(b[q])
+                | (np.uint32(b[q + 1]) << np.uint32(8))
+                | (np.uint32(b[q + 2]) << np.uint32(16))
+                | (np.uint32(b[q + 3]) << np.uint32(24))
+            )
+            faces[f, c] = np.int32(value) if signed else np.int64(value)
+        p += 13
+    return True
 
 
 def _table(properties: list[Property], lengths: list[int], order: str) -> np.dtype[Any]:

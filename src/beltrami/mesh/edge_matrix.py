@@ -27,50 +27,56 @@ def symmetric_matrix(
            [5., 1., 7.],
            [0., 7., 1.]])
     """
-    own = np.uint64(diagonal is not None)
-    indptr = np.zeros(n + 1, np.int32)
-    size = 2 * len(edges) + int(own) * n
-    indices, data = np.empty(size, np.int32), np.empty(size)
-    stored = np.zeros(0) if diagonal is None else diagonal
-    _fill(unsigned(edges), values, stored, own, unsigned(indptr), unsigned(indices), data)
-    return csr_array((data, indices, indptr), shape=(n, n))
+    if diagonal is None:
+        return _filled(edges, values, n, np.zeros(0), False)
+    return _filled(edges, values, n, diagonal, False)
 
 
-def edge_sums(edges: Integers, values: Floats, n: int) -> Floats:
-    """Return, for each of n vertices, the sum of the values of its edges; O(n + p).
+def laplacian_matrix(edges: Integers, weights: Floats, n: int) -> csr_array:
+    """Return D - W: minus the weights on the edges, their sums on the diagonal; O(n + p).
 
     Examples
     --------
-    >>> edge_sums(np.array([[0, 1], [1, 2]]), np.array([5.0, 7.0]), 3).tolist()
-    [5.0, 12.0, 7.0]
+    >>> laplacian_matrix(np.array([[0, 1], [1, 2]]), np.array([5.0, 7.0]), 3).toarray()
+    array([[ 5., -5.,  0.],
+           [-5., 12., -7.],
+           [ 0., -7.,  7.]])
     """
-    sums = np.zeros(n)
-    _add_to_ends(unsigned(edges), values, sums)
-    return sums
+    return _filled(edges, weights, n, np.zeros(n), True)
 
 
-@kernel
-def _add_to_ends(edges: Any, values: Any, sums: Any) -> None:
-    """Add the value of each edge at both of its ends."""
-    for e in range(edges.shape[0]):
-        sums[edges[e, 0]] += values[e]
-        sums[edges[e, 1]] += values[e]
+def _filled(
+    edges: Integers, values: Floats, n: int, diagonal: Floats, laplacian: bool
+) -> csr_array:
+    """Return the matrix; its diagonal is stored where one of n values is given."""
+    indptr = np.zeros(n + 1, np.int32)
+    size = 2 * len(edges) + len(diagonal)
+    indices, data = np.empty(size, np.int32), np.empty(size)
+    pattern = (unsigned(indptr), unsigned(indices))
+    _fill(unsigned(edges), values, diagonal, laplacian, *pattern, data)
+    return csr_array((data, indices, indptr), shape=(n, n))
 
 
 @kernel
 def _fill(
-    edges: Any, values: Any, diagonal: Any, own: Any, indptr: Any, indices: Any, data: Any
+    edges: Any, values: Any, diagonal: Any, laplacian: bool, indptr: Any, indices: Any, data: Any
 ) -> None:
     """Fill the CSR arrays: in each row the smaller neighbours, the diagonal, the larger ones.
 
     ``indptr`` comes as zeros and holds the ends of the rows, until the last loop moves them.
+    For a Laplacian the values change their sign and are summed into the diagonal.
     """
     one, zero = np.uint64(1), np.uint64(0)
+    own = np.uint64(diagonal.size > 0)
+    sign = -1.0 if laplacian else 1.0
     n, p = np.uint64(indptr.size) - one, np.uint64(edges.shape[0])
     e = zero
     while e < p:
         indptr[edges[e, 0]] += 1
         indptr[edges[e, 1]] += 1
+        if laplacian:
+            diagonal[edges[e, 0]] += values[e]
+            diagonal[edges[e, 1]] += values[e]
         e += one
     i = zero
     start = np.uint64(0)
@@ -84,7 +90,7 @@ def _fill(
         j = edges[e, 1]
         q = np.uint64(indptr[j])
         indices[q] = edges[e, 0]
-        data[q] = values[e]
+        data[q] = sign * values[e]
         indptr[j] = q + one
         e += one
     e = i = zero
@@ -96,7 +102,7 @@ def _fill(
             q += one
         while e < p and edges[e, 0] == i:
             indices[q] = edges[e, 1]
-            data[q] = values[e]
+            data[q] = sign * values[e]
             q += one
             e += one
         indptr[i] = q

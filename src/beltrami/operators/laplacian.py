@@ -7,9 +7,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from scipy.sparse import csr_array, issparse, triu
 
-from beltrami._arrays import Floats, Integers, read_only
+from beltrami._arrays import Floats, read_only
 from beltrami.errors import DimensionError, MeshError, check_name
-from beltrami.mesh.edge_matrix import edge_sums, symmetric_matrix
+from beltrami.mesh.edge_matrix import laplacian_matrix
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
 from beltrami.operators.accumulate import accumulate
@@ -79,16 +79,11 @@ def laplacian(domain: Domain, weights: str | None = None, mass: str | None = Non
     mass_kind = check_name("mass", natural if mass is None else mass, MASSES)
     topology = domain.topology if isinstance(domain, Mesh) else domain
     edge_weight, areas = _weights_and_areas(domain, weight_kind, mass_kind)
-    stiffness = _stiffness(topology.edges, edge_weight, topology.n_vertices)
+    stiffness = laplacian_matrix(topology.edges, edge_weight, topology.n_vertices)
     if (np.diff(stiffness.indptr) == 1).any():  # a row that holds its diagonal alone
         refuse_unreferenced(topology)
     masses = _mass_matrix(domain, stiffness, mass_kind, areas)
     return Laplacian(stiffness, masses, topology.edges, edge_weight, weight_kind, mass_kind, domain)
-
-
-def _stiffness(edges: Integers, edge_weight: Floats, n: int) -> csr_array:
-    """L = D - W, with the degrees summed edge by edge so that L1 = 0 to rounding."""
-    return symmetric_matrix(edges, -edge_weight, n, edge_sums(edges, edge_weight, n))
 
 
 def _weights_and_areas(
@@ -130,7 +125,7 @@ def _of_graph(matrix: csr_array, weights: str | None, mass: str | None) -> Lapla
     rows = np.repeat(np.arange(n), np.diff(upper.indptr))
     edges = read_only(np.stack([rows, upper.indices.astype(np.int64)], axis=1))
     edge_weight = read_only(np.ones(len(edges)) if weights else upper.data.astype(np.float64))
-    stiffness = _stiffness(edges, edge_weight, n)
+    stiffness = laplacian_matrix(edges, edge_weight, n)
     kind = check_name("mass of a graph", "degree" if mass is None else mass, ("degree", "unit"))
     masses = stiffness.diagonal() if kind == "degree" else np.ones(n)
     if not (masses > 0).all():
