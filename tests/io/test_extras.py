@@ -32,6 +32,9 @@ def test_compressed_gifti(tmp_path):
     write_mesh(tmp_path / "a.gii", Mesh(POINTS, FACES))
     (tmp_path / "b.gii.gz").write_bytes(gzip.compress((tmp_path / "a.gii").read_bytes()))
     assert read_mesh(tmp_path / "b.gii.gz").faces.tolist() == FACES
+    write_mesh(tmp_path / "c.gii.gz", Mesh(POINTS, FACES))
+    assert gzip.decompress((tmp_path / "c.gii.gz").read_bytes()).startswith(b"<?xml")
+    assert read_mesh(tmp_path / "c.gii.gz").faces.tolist() == FACES
 
 
 def test_freesurfer(tmp_path):

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from beltrami._arrays import Floats
 from beltrami._jit import kernel, unsigned
 
 _BLOCK = 4096  # vertices sorted by degree at a time: small beside the caches
@@ -21,17 +22,19 @@ class LocalRows(NamedTuple):
         The old number of each new row.
     indptr, indices : uint32
         The rows; within each, the entries keep the order they had, so sums give the same bits.
-    source : uint32
-        Where each entry stood before.
+    data : float
+        The values of the entries; empty if none were given.
     """
 
     order: NDArray[np.uint32]
     indptr: NDArray[np.uint32]
     indices: NDArray[np.uint32]
-    source: NDArray[np.uint32]
+    data: Floats
 
 
-def local_rows(indptr: NDArray[Any], indices: NDArray[Any], held: NDArray[np.bool_]) -> LocalRows:
+def local_rows(
+    indptr: NDArray[Any], indices: NDArray[Any], data: Floats, held: NDArray[np.bool_]
+) -> LocalRows:
     """Renumber breadth first, then by degree within blocks; rows of held vertices become empty.
 
     Breadth first brings neighbours near each other; equal degrees in a run let the processor
@@ -39,13 +42,14 @@ def local_rows(indptr: NDArray[Any], indices: NDArray[Any], held: NDArray[np.boo
 
     Examples
     --------
-    >>> rows = local_rows(np.array([0, 1, 2, 4]), np.array([2, 2, 0, 1]), np.zeros(3, bool))
+    >>> rows = local_rows(np.array([0, 1, 2, 4]), np.array([2, 2, 0, 1]), np.zeros(0),
+    ...                   np.zeros(3, bool))
     >>> rows.order.tolist(), rows.indices.tolist()
     ([0, 1, 2], [2, 2, 0, 1])
     """
     n = len(indptr) - 1
-    signed = indptr.astype(np.int32)
-    starts, entries = unsigned(signed), unsigned(indices.astype(np.int32))
+    signed = np.asarray(indptr, np.int32)
+    starts, entries = unsigned(signed), unsigned(np.asarray(indices, np.int32))
     visited = np.empty(n, np.uint32)
     number = np.full(n, n, np.uint32)  # n: not visited yet
     _breadth_first(starts, entries, visited, number)
@@ -53,9 +57,10 @@ def local_rows(indptr: NDArray[Any], indices: NDArray[Any], held: NDArray[np.boo
     _sort_blocks(signed, visited, held, _BLOCK, order, number)
     new_starts = np.empty(n + 1, np.uint32)
     new_entries = np.empty(len(entries), np.uint32)
-    source = np.empty(len(entries), np.uint32)
-    size = _renumber(starts, entries, order, number, held, new_starts, new_entries, source)
-    return LocalRows(order, new_starts, new_entries[:size], source[:size])
+    new_data = np.empty(len(data))
+    old, new = (starts, entries, data), (new_starts, new_entries, new_data)
+    size = _renumber(*old, order, number, held, *new)
+    return LocalRows(order, new_starts, new_entries[:size], new_data[:size])
 
 
 @kernel
@@ -110,12 +115,13 @@ def _sort_blocks(indptr: Any, visited: Any, held: Any, block: int, order: Any, n
 def _renumber(
     indptr: Any,
     indices: Any,
+    data: Any,
     order: Any,
     number: Any,
     held: Any,
     new_indptr: Any,
     new_indices: Any,
-    source: Any,
+    new_data: Any,
 ) -> int:
     """Copy the rows in the new order, with the new numbers; a held row stays empty."""
     n = np.uint64(order.size)
@@ -127,7 +133,8 @@ def _renumber(
         q, end = np.uint64(indptr[v]), np.uint64(indptr[v + one])
         while q < end and not held[v]:
             new_indices[place] = number[np.uint64(indices[q])]
-            source[place] = q
+            if data.size:
+                new_data[place] = data[q]
             place += one
             q += one
         row += one

@@ -87,26 +87,25 @@ def smooth(
             raise StepTooLongError(step, longest)
     weights = laplacian.weights
     held |= laplacian.degrees == 0  # a vertex without neighbours keeps its value
-    rows = local_rows(weights.indptr, weights.indices, held)
-    columns = values.reshape(laplacian.n, -1)[rows.order]
-    alike = laplacian.weight_kind == "combinatorial"  # all 1: nothing to load but the numbers
-    shares = None if alike and columns.shape[1] == 3 else _shares(laplacian, rows)
-    averaged = _averaged(rows, shares, columns, steps, step, progress)
+    columns = values.reshape(laplacian.n, -1)
+    alike = laplacian.weight_kind == "combinatorial" and columns.shape[1] == 3
+    shares = np.zeros(0) if alike else _shares(laplacian)  # all alike: nothing to load
+    rows = local_rows(weights.indptr, weights.indices, shares, held)
+    averaged = _averaged(rows, columns[rows.order], steps, step, progress)
     result = np.empty_like(averaged)
     result[rows.order] = averaged
     return result.reshape(values.shape)
 
 
-def _shares(laplacian: Laplacian, rows: LocalRows) -> Floats:
-    """Return w_ij / d_i in the order of the renumbered rows."""
+def _shares(laplacian: Laplacian) -> Floats:
+    """Return w_ij / d_i, entry by entry; 0 / 0 where a vertex has no weight is not used."""
     weights = laplacian.weights
-    degrees = np.repeat(laplacian.degrees, np.diff(weights.indptr))[rows.source]
-    return np.asarray(weights.data[rows.source] / degrees)
+    with np.errstate(invalid="ignore"):
+        return np.asarray(weights.data / np.repeat(laplacian.degrees, np.diff(weights.indptr)))
 
 
 def _averaged(
     rows: LocalRows,
-    shares: Floats | None,
     values: Floats,
     steps: int,
     step: float,
@@ -118,12 +117,12 @@ def _averaged(
     spare = np.empty_like(state)
     for rounds in stages(steps, progress, _ROUNDS_A_CALL):
         pattern = (rows.indptr, rows.indices)
-        if shares is None:
+        if not len(rows.data) and triples:
             swapped = _average_triples_alike(*pattern, state, spare, step, rounds)
         elif triples:
-            swapped = _average_triples(*pattern, shares, state, spare, step, rounds)
+            swapped = _average_triples(*pattern, rows.data, state, spare, step, rounds)
         else:
-            swapped = _average_columns(*pattern, shares, state, spare, step, rounds)
+            swapped = _average_columns(*pattern, rows.data, state, spare, step, rounds)
         if swapped:
             state, spare = spare, state
     return state if triples else np.ascontiguousarray(state.T)
@@ -136,11 +135,14 @@ def _average_triples_alike(
     """Average three columns with equal weights; say whether the result is in y."""
     n = np.uint64(x.shape[0])
     one = np.uint64(1)
+    previous, keep, share = np.uint64(0), 1.0, 0.0
     for _ in range(rounds):
         i = q = np.uint64(0)
         while i < n:
             end = np.uint64(indptr[i + one])
-            count = end - q
+            if end - q != previous:  # seldom: rows of one degree come together
+                previous = end - q
+                keep, share = (1 - step, step / previous) if previous else (1.0, 0.0)
             a = b = c = 0.0
             while q < end:
                 j = np.uint64(indices[q])
@@ -148,7 +150,6 @@ def _average_triples_alike(
                 b += x[j, 1]
                 c += x[j, 2]
                 q += one
-            keep, share = (1.0, 0.0) if count == 0 else (1 - step, step / count)
             y[i, 0] = keep * x[i, 0] + share * a
             y[i, 1] = keep * x[i, 1] + share * b
             y[i, 2] = keep * x[i, 2] + share * c

@@ -132,9 +132,7 @@ def write_mesh(path: str | os.PathLike[str], mesh: Mesh, uv: ArrayLike | None = 
     if uv is not None:
         check_name("format for texture coordinates", suffix, (".obj",))
     with replacing(path) as whole:
-        if suffix in extras.WRITERS:
-            whole.write(extras.encode(mesh, vertices, suffix))
-        elif Path(path).suffix.lower() == ".gz":
+        if Path(path).suffix.lower() == ".gz":
             with gzip.GzipFile("", "wb", fileobj=whole, mtime=0) as file:
                 _write(file, mesh, vertices, suffix, uv)
         else:
@@ -158,7 +156,9 @@ def suffix_of(path: str | os.PathLike[str], form: str | None, known: tuple[str, 
 
 
 def _write(file: Any, mesh: Mesh, vertices: Floats, suffix: str, uv: ArrayLike | None) -> None:
-    if uv is not None:
+    if suffix in extras.WRITERS:
+        file.write(extras.encode(mesh, vertices, suffix))
+    elif uv is not None:
         write_obj(file, mesh, vertices, np.asarray(uv, dtype=np.float64))
     else:
         WRITERS[suffix](file, mesh, vertices)
