@@ -44,6 +44,7 @@ def test_the_rows_are_those_of_the_permuted_matrix(name, share):
     order = rows.order.astype(int)
     assert sorted(order) == list(range(n))
     number = np.argsort(order)
+    assert rows.number.tolist() == number.tolist()
     assert len(rows.indptr) == n + 1
     for r in range(n):
         begin, end = rows.indptr[r], rows.indptr[r + 1]

@@ -20,6 +20,8 @@ class LocalRows(NamedTuple):
     ----------
     order : (n,) uint32
         The old number of each new row.
+    number : (n,) uint32
+        The new number of each old row.
     indptr, indices : uint32
         The rows; within each, the entries keep the order they had, so sums give the same bits.
     data : float
@@ -27,6 +29,7 @@ class LocalRows(NamedTuple):
     """
 
     order: NDArray[np.uint32]
+    number: NDArray[np.uint32]
     indptr: NDArray[np.uint32]
     indices: NDArray[np.uint32]
     data: Floats
@@ -60,7 +63,7 @@ def local_rows(
     new_data = np.empty(len(data))
     old, new = (starts, entries, data), (new_starts, new_entries, new_data)
     size = _renumber(*old, order, number, held, *new)
-    return LocalRows(order, new_starts, new_entries[:size], new_data[:size])
+    return LocalRows(order, number, new_starts, new_entries[:size], new_data[:size])
 
 
 @kernel

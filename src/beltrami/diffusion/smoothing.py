@@ -91,10 +91,9 @@ def smooth(
     alike = laplacian.weight_kind == "combinatorial" and columns.shape[1] == 3
     shares = np.zeros(0) if alike else _shares(laplacian)  # all alike: nothing to load
     rows = local_rows(weights.indptr, weights.indices, shares, held)
-    averaged = _averaged(rows, columns[rows.order], steps, step, progress)
-    result = np.empty_like(averaged)
-    result[rows.order] = averaged
-    return result.reshape(values.shape)
+    ordered = np.take(columns, rows.order, axis=0, mode="clip")  # clip: no test of the indices
+    averaged = _averaged(rows, ordered, steps, step, progress)
+    return np.take(averaged, rows.number, axis=0, mode="clip").reshape(values.shape)
 
 
 def _shares(laplacian: Laplacian) -> Floats:
