@@ -44,10 +44,15 @@ def damaged(whole: bytes, rng: np.random.Generator) -> bytes:
     return bytes(data)
 
 
+KINDS = (".obj", ".off", ".ply", ".stl", "t.ply", "s.ply", "t.stl", ".off.gz")
+
+
+@pytest.mark.parametrize("suffix", KINDS)
 @pytest.mark.parametrize(
-    "suffix", [".obj", ".off", ".ply", ".stl", "t.ply", "s.ply", "t.stl", ".off.gz"]
+    ("seed", "rounds"),
+    [(58_290_117, 1500), pytest.param(7_710_223, 40_000, marks=pytest.mark.heavy)],
 )
-def test_damaged_files(tmp_path, scattered, suffix):
+def test_damaged_files(tmp_path, scattered, suffix, seed, rounds):
     path = tmp_path / f"a{suffix}"
     if suffix == ".obj":
         write_mesh(
@@ -59,9 +64,9 @@ def test_damaged_files(tmp_path, scattered, suffix):
     else:
         path.write_bytes({"t.ply": TEXT_PLY, "s.ply": STRIPS, "t.stl": TEXT_STL}[suffix])
     whole = path.read_bytes()
-    rng = np.random.default_rng(58_290_117)
+    rng = np.random.default_rng(seed)
     refused = 0
-    for _ in range(1500):
+    for _ in range(rounds):
         path.write_bytes(damaged(whole, rng))
         try:
             mesh = read_mesh(path)
