@@ -226,3 +226,18 @@ def test_round_trip(tmp_path, scattered):
         assert again.vertex_data[name].dtype == array.dtype, name
         assert again.vertex_data[name].shape == array.shape, name
         assert again.vertex_data[name].tobytes() == array.tobytes(), name
+
+
+def test_a_number_that_its_type_cannot_hold(tmp_path):
+    text = (
+        b"ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+        b"property double z\nproperty float heat\nelement face 1\n"
+        b"property list uchar int vertex_indices\nend_header\n"
+        b"0 0 0 1\n1 0 0 1e300\n0 1 0 3\n3 0 1 2\n"
+    )
+    path = tmp_path / "large.ply"
+    path.write_bytes(text)
+    with pytest.raises(FileFormatError, match=r"'heat', found 1e\+300 in row 1"):
+        read_mesh(path)
+    path.write_bytes(text.replace(b"1e300", b"2"))
+    assert read_mesh(path).vertex_data["heat"].tolist() == [1, 2, 3]

@@ -91,8 +91,9 @@ def _split(
     for axis in "xyz":
         if axis not in scalars:
             raise FileFormatError(source.path, f"expected a property {axis!r} of the vertices")
-    vertices = _side_by_side(*(scalars[axis] for axis in "xyz"))
-    total = vertices.sum()  # one pass: NaN or infinite if a coordinate is, or if it overflows
+    with np.errstate(invalid="ignore", over="ignore"):
+        vertices = _side_by_side(*(scalars[axis] for axis in "xyz"))
+        total = vertices.sum()  # one pass: NaN or infinite if a coordinate is, or if it overflows
     if not np.isfinite(total) and not np.isfinite(vertices).all():
         row = int(np.flatnonzero(~np.isfinite(vertices).all(axis=1))[0])
         raise source.at_byte(

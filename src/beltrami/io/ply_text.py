@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import Integers
+from beltrami._arrays import Floats, Integers
 from beltrami._jit import kernel
+from beltrami.errors import FileFormatError
 from beltrami.io.numbers import read_number
-from beltrami.io.ply_header import Element
+from beltrami.io.ply_header import Element, Property
 from beltrami.io.source import Source, trimmed
 
 _DONE, _NOT_NUMBER, _NOT_IN_TYPE, _NOT_LENGTH = range(4)
@@ -55,9 +56,23 @@ def read_text(
         }
         raise source.unexpected(position, expected[status])
     kept = [p for p in properties if p.length is None]
-    table = {p.name: scalars[:, i].astype(p.type) for i, p in enumerate(kept)}
+    table = {p.name: _cast(source, element, p, scalars[:, i]) for i, p in enumerate(kept)}
     found = (trimmed(values, filled), lengths) if has_list else None
     return table, found, position
+
+
+def _cast(source: Source, element: Element, p: Property, column: Floats) -> NDArray[Any]:
+    """Give a column the type of its property, which must be able to hold it."""
+    with np.errstate(over="ignore"):
+        result = column.astype(p.type)
+    lost = np.flatnonzero(np.isinf(result) & np.isfinite(column))
+    if len(lost):
+        raise FileFormatError(
+            source.path,
+            f"expected numbers that a {p.type} can hold in the property {p.name!r}, found "
+            f"{column[lost[0]]:g} in row {lost[0]} of the element {element.name!r}",
+        )
+    return result
 
 
 def _bounds(kind: str) -> tuple[float, float]:

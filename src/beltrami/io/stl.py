@@ -82,7 +82,8 @@ def read_stl(source: Source) -> Mesh:
 
 def _read_binary(source: Source, count: int) -> Floats:
     rows = np.frombuffer(source.data, _TRIANGLE, count, _HEADER)
-    corners = rows["corners"].astype(np.float64).reshape(-1, 3)
+    with np.errstate(invalid="ignore"):  # NaN may be of the signalling kind
+        corners = rows["corners"].astype(np.float64).reshape(-1, 3)
     finite = np.isfinite(corners)
     if not finite.all():
         row = int(np.flatnonzero(~finite.all(axis=1))[0]) // 3
