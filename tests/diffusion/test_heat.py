@@ -12,6 +12,7 @@ from beltrami.errors import (
     StepTooLongError,
     UnknownNameError,
 )
+from beltrami.mesh import shapes
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.pair import MASSES
 from meshes_of_the_errata import IRREGULAR, MESHES, triangle
@@ -61,8 +62,9 @@ def test_explicit_steps_against_dense_products(mass, weights, columns):
     delta = 1.3 / pair.spectral_bound()
     held = rng.uniform(size=pair.n) < 0.2
     for hold in (np.zeros(pair.n, bool), held):
-        S = np.eye(pair.n) - delta * np.linalg.solve(B, L)
-        S[hold] = np.eye(pair.n)[hold]
+        S = np.eye(pair.n)
+        free = ~hold
+        S[free] -= delta * np.linalg.solve(B[np.ix_(free, free)], L[free])
         expected = np.linalg.matrix_power(S, steps) @ f
         result = heat(pair, f, delta * steps, "explicit", steps, hold=hold)
         assert np.allclose(result, expected, rtol=1e-8, atol=1e-10)
@@ -213,3 +215,26 @@ def test_a_number_of_steps_is_whole(method, steps):
     with pytest.raises((BeltramiError, TypeError)):
         heat(pair, np.zeros(192), 1.0, method, steps)
     assert heat(pair, np.zeros(192), 1.0, method, np.int64(3)).shape == (192,)
+
+
+@pytest.mark.parametrize("method", ["implicit", "explicit"])
+@pytest.mark.parametrize("mass", ["voronoi", "consistent"])
+def test_held_ends_lead_to_the_harmonic_function(method, mass):
+    """With cotangent weights on a planar mesh that is x itself, whatever the mass."""
+    sheet = shapes.grid(5, 5)
+    rng = np.random.default_rng(40_817_211)
+    inner = np.abs(sheet.vertices - 0.5).max(axis=1) < 0.45
+    moved = sheet.vertices + 0.04 * inner[:, None] * rng.uniform(-1, 1, sheet.vertices.shape)
+    pair = laplacian(sheet.with_vertices(moved), "cotangent", mass)
+    x = moved[:, 0]
+    ends = (x < 1e-9) | (x > 1 - 1e-9)
+    start = np.where(ends, x, 0.3)
+    steps = 40 if method == "implicit" else None
+    assert heat(pair, start, 20.0, method, steps, hold=ends) == pytest.approx(x, abs=1e-8)
+
+
+def test_an_endless_number_of_explicit_steps_is_refused():
+    pair = laplacian(shapes.icosphere(1))
+    for time in (1e12, 1e308):
+        with pytest.raises(BeltramiError, match="implicit"):
+            heat(pair, np.zeros(pair.n), time, "explicit")

@@ -11,6 +11,7 @@ from beltrami.errors import (
     StepTooLongError,
     UnknownNameError,
 )
+from beltrami.mesh import shapes
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.laplacian import laplacian
 from meshes_of_the_errata import IRREGULAR, MESHES
@@ -179,3 +180,10 @@ def test_options_of_another_method_are_not_ignored():
         smooth_mesh(mesh, "averaging", mass="voronoi")
     with pytest.raises(BeltramiError):
         smooth_mesh(mesh, "implicit", time=0.1, step=0.5)
+
+
+def test_what_has_collapsed_is_not_kept():
+    octahedron = shapes.octahedron()
+    for keep in ("volume", "centroid"):
+        with pytest.raises(BeltramiError, match=r"collapsed|shrunk"):
+            smooth_mesh(octahedron, steps=1, keep=keep)

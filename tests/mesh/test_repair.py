@@ -293,3 +293,16 @@ def test_the_lines_count():
 def test_empty():
     fixed = repair(Mesh([], []), **dict.fromkeys(KEYWORDS, True), tolerance=0.1)
     assert (fixed.mesh.n_vertices, fixed.mesh.n_faces, fixed.done) == (0, 0, ())
+
+
+def test_a_cavity_stays_a_cavity():
+    outer, inner = icosphere(1), icosphere(1, radius=0.5)
+    n = outer.n_vertices
+    turned_in = inner.faces[:, [0, 2, 1]] + n
+    hollow = Mesh(
+        np.concatenate([outer.vertices, inner.vertices]), np.concatenate([outer.faces, turned_in])
+    )
+    assert repair(hollow, orient=True).mesh.volume == pytest.approx(hollow.volume)
+    beside = hollow.with_vertices(hollow.vertices + np.repeat([[0.0], [9]], n, axis=0))
+    both = outer.volume + inner.volume
+    assert repair(beside, orient=True).mesh.volume == pytest.approx(both)

@@ -466,3 +466,9 @@ def test_empty():
 
 def test_repr():
     assert repr(Topology(TETRAHEDRON, 6)) == "<Topology: 6 vertices, 4 faces>"
+
+
+def test_a_face_that_names_a_vertex_twice_changes_no_number():
+    for extra in ([[0, 0, 4]], [[4, 4, 4], [5, 5, 5]]):
+        topology = Topology(np.concatenate([TETRAHEDRON, extra]))
+        assert (topology.euler_characteristic, topology.genus, topology.n_components) == (2, 0, 1)

@@ -6,11 +6,14 @@ from scipy.sparse import csr_array
 
 import dense_oracles as oracle
 from beltrami.errors import (
+    DegenerateFaceError,
     DimensionError,
     MeshError,
     NegativeWeightError,
     NonFiniteError,
+    UnknownNameError,
 )
+from beltrami.mesh.mesh import Mesh
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.pair import MASSES
 from meshes_of_the_errata import IRREGULAR, MESHES
@@ -155,3 +158,16 @@ def test_the_weight_opposite_a_right_angle_is_not_called_negative_for_its_roundi
         pair = laplacian(mesh.with_vertices(mesh.vertices @ turn.T))
         verdicts.append(pair.properties.non_negative_weights)
     assert len(set(verdicts)) == 1
+
+
+def test_a_graph_has_no_area_masses_and_may_be_indefinite():
+    pair = laplacian(csr_array([[0, -1.0], [-1.0, 0]]), mass="unit")
+    assert "semi-definite" not in repr(pair)
+    with pytest.raises(UnknownNameError, match="degree"):
+        pair.spectral_bound("voronoi")
+
+
+def test_the_bound_with_area_masses_asks_for_areas():
+    flat = Mesh([[0, 0], [1, 0], [2, 0]], [[0, 1, 2]])
+    with pytest.raises(DegenerateFaceError):
+        laplacian(flat, "combinatorial").spectral_bound("voronoi")

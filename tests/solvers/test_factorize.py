@@ -98,3 +98,14 @@ def test_what_is_refused():
     for value in (np.nan, np.inf):
         with pytest.raises(NonFiniteError):
             factorize(csr_array([[1.0, 0], [0, value]]))
+
+
+def test_units_do_not_make_a_matrix_singular():
+    factor = factorize(csr_array(np.diag([1.0, 1e-15, 1e15])))
+    assert factor.solve([1.0, 1e-15, 1e15]).tolist() == [1, 1, 1]
+
+
+def test_complex_and_empty_matrices_are_refused():
+    for wrong in (csr_array(np.diag([1 + 1j, 2])), csr_array((0, 0))):
+        with pytest.raises(DimensionError):
+            factorize(wrong)

@@ -48,4 +48,8 @@ def _as_a_line(error: Exception) -> str:
         return f"{error.filename}: {error.strerror}"
     if isinstance(error, MemoryError):
         return f"not enough memory. {error}"
-    return as_commands(" ".join((str(error) or type(error).__name__).split()))
+    text = str(error) or type(error).__name__
+    remedy = getattr(error, "remedy", "")  # only this is about options: files may be called alike
+    if remedy and text.endswith(remedy):
+        text = text.removesuffix(remedy) + as_commands(remedy)
+    return " ".join(text.split())

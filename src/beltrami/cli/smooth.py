@@ -58,7 +58,7 @@ def smooth(
         values = read_data(data, read, data_name)
         held = read.topology.boundary_edges.ravel() if hold_boundary else ()
         with waiting("smoothing") as progress:
-            pair = laplacian(read, weights or "combinatorial", "degree")
+            pair = laplacian(read, "combinatorial" if weights is None else weights, "degree")
             rounds = 10 if steps is None else steps
             delta = 1.0 if step is None else step
             result = smooth_function(pair, values, rounds, delta, hold=held, progress=progress)

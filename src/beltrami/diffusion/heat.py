@@ -15,6 +15,7 @@ from beltrami.operators.pair import Laplacian
 from beltrami.solvers.factorize import factorize
 
 HEAT_METHODS = ("implicit", "explicit")
+_MOST_STEPS = 10_000_000  # of the explicit scheme, if the caller does not insist
 
 
 def heat(
@@ -54,13 +55,16 @@ def heat(
     Returns
     -------
     (n,) or (n, c), as f. Both schemes are of first order in δ, with errors of opposite sign, and
-    keep the mean of B if nothing is held.
+    keep the mean of B if nothing is held. When the time is more than 1e8 times the area, the
+    implicit system is nearly singular and digits of the mean are lost; in the end it is refused.
 
     Raises
     ------
     StepTooLongError
         If an explicit step is beyond 2 over ``laplacian.spectral_bound()``, the proven bound;
         ``error.longest`` is the longest allowed.
+    SingularMatrixError
+        If the time is so long that nothing of the mass is left beside δL.
     DimensionError, NonFiniteError, UnknownNameError, BeltramiError
         If f, the method or the numbers are not valid.
 
@@ -86,7 +90,12 @@ def heat(
     if method == "implicit":
         return _implicit(laplacian, values, time, steps or 10, held, progress)
     bound = laplacian.spectral_bound()
-    count = steps or max(1, math.ceil(time * bound))
+    count = steps or math.ceil(min(max(1.0, time * bound), _MOST_STEPS + 1))
+    if steps is None and count > _MOST_STEPS:
+        raise BeltramiError(
+            f"a time of {time:g} takes more than {_MOST_STEPS:.0e} explicit steps here: the "
+            f"longest allowed is {2 / bound:.6g}. Use the implicit method, or give the steps"
+        )
     if time / count * bound > 2 * (1 + 1e-12):
         raise StepTooLongError(time / count, 2 / bound)
     return _explicit(laplacian, values, time / count, count, held, progress)
@@ -123,12 +132,16 @@ def _explicit(
     held: Integers,
     progress: Progress | None,
 ) -> Floats:
-    """Add -δ B⁻¹ L F; the held values are put back after each step."""
+    """Add -δ B⁻¹ L F on the free vertices, with the part of B that belongs to them."""
+    free = np.ones(laplacian.n, np.bool_)
+    free[held] = False
+    if not free.any():
+        return f.copy()
     result = f.copy()
-    consistent = factorize(laplacian.mass) if laplacian.mass_kind == "consistent" else None
-    scale = (delta / laplacian.masses)[(...,) + (None,) * (f.ndim - 1)]
+    whole = laplacian.mass_kind == "consistent"
+    mass = factorize(csr_array(laplacian.mass[free][:, free])) if whole else None
+    scale = (delta / laplacian.masses[free])[(...,) + (None,) * (f.ndim - 1)]
     for _ in stages(steps, progress):
-        flow = laplacian.stiffness @ result
-        result -= scale * flow if consistent is None else delta * consistent.solve(flow)
-        result[held] = f[held]
+        flow = (laplacian.stiffness @ result)[free]
+        result[free] -= scale * flow if mass is None else delta * mass.solve(flow)
     return result

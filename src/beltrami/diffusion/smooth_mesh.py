@@ -31,7 +31,7 @@ def smooth_mesh(
     keep: str | None = None,
     progress: Progress | None = None,
 ) -> Mesh:
-    r"""Smooth the positions of a mesh; topology, data and texture coordinates stay.
+    r"""Smooth the positions of a mesh; all else stays, but for data named "normal".
 
     Parameters
     ----------
@@ -98,7 +98,9 @@ def smooth_mesh(
     )
     if keep is None:
         return moved
-    factor = 1.0 if before is None else float(np.cbrt(before / moved.volume))
+    factor = 1.0 if before is None else _regrowth(before, moved)
+    if not moved.area > 0:
+        raise BeltramiError(f"the surface has shrunk to a point, so its {keep} cannot be kept")
     centred = (moved.vertices - _centroid(moved)) * factor
     return moved.with_vertices(centred + _centroid(mesh))
 
@@ -111,7 +113,7 @@ def _averaged(
     held: Booleans,
     progress: Progress | None,
 ) -> Floats:
-    pair = laplacian(mesh, weights or "combinatorial", "degree")
+    pair = laplacian(mesh, "combinatorial" if weights is None else weights, "degree")
     count = 10 if steps is None else steps
     delta = 1.0 if step is None else step
     return smooth(pair, mesh.vertices, count, delta, hold=held, progress=progress)
@@ -134,6 +136,14 @@ def _diffused(
         )
     pair = laplacian(mesh, weights, mass)
     return heat(pair, mesh.vertices, time, method, steps, hold=held, progress=progress)
+
+
+def _regrowth(before: float, moved: Mesh) -> float:
+    """Return the scale that gives the volume back."""
+    now = moved.volume
+    if not now * before > 0 or abs(now) < 1e-12 * moved.area**1.5:
+        raise BeltramiError("the surface has collapsed, so its volume cannot be kept: smooth less")
+    return float(np.cbrt(before / now))
 
 
 def _centroid(mesh: Mesh) -> Floats:

@@ -7,7 +7,6 @@ from scipy.spatial import cKDTree
 
 from beltrami._arrays import Floats, Integers
 from beltrami.mesh.connectivity import component_labels
-from beltrami.mesh.geometry import well_scaled
 
 
 def merge_targets(vertices: Floats, tolerance: float = 0.0) -> Integers:
@@ -29,7 +28,7 @@ def merge_targets(vertices: Floats, tolerance: float = 0.0) -> Integers:
     if not len(points):
         return targets
     if tolerance > 0:
-        points, _ = well_scaled(points)
+        points = points / max(float(np.abs(points).max()), np.finfo(float).tiny)
         reach = tolerance * float(np.linalg.norm(points.max(axis=0) - points.min(axis=0)))
         pairs = cKDTree(points).query_pairs(reach, output_type="ndarray")
         labels = component_labels(pairs, len(points))

@@ -21,7 +21,7 @@ def checked_faces(faces: ArrayLike, n_vertices: int | None) -> tuple[Integers, i
         If one names a vertex outside 0..n-1; ``error.faces`` lists them.
     """
     given = rectangular(faces)
-    if given.size == 0:
+    if given.size == 0 and given.shape[-1] in (0, 3):
         given = np.zeros((0, 3), np.int64)
     if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "iu":
         raise DimensionError(

@@ -8,7 +8,7 @@ import numpy as np
 
 from beltrami._arrays import Floats, Integers
 from beltrami._jit import kernel
-from beltrami.errors import check_name
+from beltrami.errors import MeshError, check_name
 from beltrami.mesh.triangle import is_flat, measure
 
 NORMAL_WEIGHTS = ("uniform", "area", "angle")
@@ -48,10 +48,19 @@ def well_scaled(positions: Floats) -> tuple[Floats, float]:
 
     The unit is a power of two, so that nothing is rounded: positions = result * unit. It is 1
     but for meshes with coordinates beyond 1e-50 or 1e50.
+
+    Raises
+    ------
+    MeshError
+        If the coordinates are so large or small that an area is no number any more.
     """
     largest = float(np.abs(positions).max(initial=0.0))
     if largest == 0 or 1e-50 < largest < 1e50 or not np.isfinite(largest):
         return positions, 1.0
+    if not 1e-150 < largest < 1e150:
+        raise MeshError(
+            f"coordinates of {largest:.0e} leave no room for areas", remedy="Choose another unit."
+        )
     unit = float(2.0 ** np.floor(np.log2(largest)))
     return positions / unit, unit
 

@@ -225,7 +225,8 @@ class Mesh(Frozen):
     def edge_lengths(self) -> Floats:
         """(p,) lengths of the edges."""
         i, j = self.edges.T
-        return read_only(np.linalg.norm(self.vertices[j] - self.vertices[i], axis=1))
+        scaled, unit = geometry.well_scaled(self.vertices)
+        return read_only(np.linalg.norm(scaled[j] - scaled[i], axis=1) * unit)
 
     @property
     def area(self) -> float:

@@ -74,7 +74,8 @@ def repair(
     split_non_manifold
         Give each fan of faces its own copy of a vertex; edges of more than two faces are cut.
     orient
-        Turn faces until neighbours agree; closed components then have their normals outwards.
+        Turn faces until neighbours agree; closed components then have their normals outwards,
+        but for cavities: those that are consistent, within the box of another closed one.
     keep_largest_component
         Keep the component (through common vertices) with the most faces.
     remove_unreferenced
@@ -221,16 +222,31 @@ def _orient(work: _Work) -> str:
         return "left the orientation alone: the surface is not orientable"
     labels = topology.components("edges")
     oriented = np.where(turned[:, None], work.faces[:, [0, 2, 1]], work.faces)
-    outwards = turned ^ _inside_out(work, oriented, labels)[labels]
+    outwards = turned ^ _to_turn(work, oriented, labels, turned)[labels]
     return _line("turned", work.turn_faces(outwards), "face", "faces")
 
 
-def _inside_out(work: _Work, oriented: Integers, labels: Integers) -> Booleans:
-    """Say which components are closed and enclose a negative volume."""
+def _to_turn(work: _Work, oriented: Integers, labels: Integers, turned: Booleans) -> Booleans:
+    """Say which components to turn as a whole: those inside out that are no cavities."""
+    inside_out, closed = _inside_out(work, oriented, labels)
+    order = np.argsort(labels, kind="stable")
+    starts = np.searchsorted(labels[order], np.arange(len(closed)))
+    corners = work.positions[oriented[order]]
+    low = np.minimum.reduceat(corners.min(axis=1), starts) if len(starts) else corners[:0, 0]
+    high = np.maximum.reduceat(corners.max(axis=1), starts) if len(starts) else corners[:0, 0]
+    mixed = np.bincount(labels, turned, len(closed)) > 0
+    for c in np.flatnonzero(inside_out & ~mixed):
+        around = closed & (low <= low[c]).all(axis=1) & (high >= high[c]).all(axis=1)
+        inside_out[c] = np.count_nonzero(around) == 1  # itself
+    return inside_out
+
+
+def _inside_out(work: _Work, oriented: Integers, labels: Integers) -> tuple[Booleans, Booleans]:
+    """Say which components are closed and enclose a negative volume, and which are closed."""
     count = int(labels.max(initial=-1)) + 1
     positions = work.positions
     if positions.shape[1] != 3:
-        return np.zeros(count, np.bool_)
+        return np.zeros(count, np.bool_), np.zeros(count, np.bool_)
     closed = np.ones(count, np.bool_)
     closed[labels[(work.topology.twins < 0).any(axis=1)]] = False
     sums = np.bincount(labels, minlength=count)
@@ -238,7 +254,7 @@ def _inside_out(work: _Work, oriented: Integers, labels: Integers) -> Booleans:
     centre = np.stack([np.bincount(labels, middle[:, c], count) / sums for c in range(3)], axis=1)
     with np.errstate(invalid="ignore"):  # a component that is not finite has no inside
         moment = ((middle - centre[labels]) * face_vectors(positions, oriented)).sum(axis=1)
-    return closed & (np.bincount(labels, moment, count) < 0)
+    return closed & (np.bincount(labels, moment, count) < 0), closed
 
 
 def _keep_largest(work: _Work) -> str:

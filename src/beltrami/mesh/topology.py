@@ -251,14 +251,14 @@ class Topology(Frozen):
 
     @property
     def n_components(self) -> int:
-        """Number of components, through common vertices."""
-        return int(self.components().max(initial=-1)) + 1
+        """Number of components, through common vertices, of the faces that have sides."""
+        return len(np.unique(self.components()[self.face_edges[:, 0] >= 0]))
 
     @property
     def euler_characteristic(self) -> int:
-        """V - E + F over the referenced vertices and the faces that have sides."""
+        """V - E + F over the faces that have sides, and their vertices."""
         return (
-            int(np.count_nonzero(self.referenced))
+            len(np.unique(self.edges))
             - self.n_edges
             + int(np.count_nonzero(self.face_edges[:, 0] >= 0))
         )

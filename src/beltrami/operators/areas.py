@@ -49,7 +49,7 @@ def diagonal_matrix(values: Floats) -> csr_array:
     """Return the (n, n) diagonal matrix with these values."""
     n = len(values)
     pointers = np.arange(n + 1, dtype=np.int32)
-    return csr_array((values, pointers[:-1], pointers), shape=(n, n))
+    return csr_array((values, np.arange(n, dtype=np.int32), pointers), shape=(n, n))
 
 
 def consistent_mass(mesh: Mesh) -> csr_array:

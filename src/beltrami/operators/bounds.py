@@ -14,6 +14,7 @@ from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
 from beltrami.mesh.triangle import measure, shares
 from beltrami.operators.areas import AREA_KINDS
+from beltrami.operators.soundness import require_sound
 
 
 def largest_face_eigenvalue(side_weights: Floats, corner_masses: Floats) -> float:
@@ -63,6 +64,7 @@ def corner_masses(domain: Mesh | Topology, sides: Floats, kind: str) -> Floats:
         return np.asarray(1 / around[topology.faces])
     if not isinstance(domain, Mesh):
         raise DimensionError(f"the {kind} mass needs the positions of the vertices")
+    require_sound(domain)
     if kind == "consistent":  # (A/12)⁻¹ L_f has the eigenvalues of the pair, because L_f 1 = 0
         return np.repeat(domain.face_areas[:, None] / 12, 3, axis=1)
     scaled, unit = well_scaled(domain.vertices)

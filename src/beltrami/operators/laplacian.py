@@ -19,7 +19,7 @@ from beltrami.operators.areas import (
     diagonal_matrix,
     vertex_areas,
 )
-from beltrami.operators.pair import MASSES, Laplacian
+from beltrami.operators.pair import GRAPH_MASSES, MASSES, Laplacian
 from beltrami.operators.soundness import refuse_unreferenced
 from beltrami.operators.weights import WEIGHTS, weigh_edges
 
@@ -113,6 +113,8 @@ def _mass_matrix(
 def _of_graph(matrix: csr_array, weights: str | None, mass: str | None) -> Laplacian:
     """Make the pair of a graph given by its symmetric weights."""
     n = matrix.shape[0]
+    if not n or matrix.dtype.kind not in "biuf":
+        raise MeshError("a matrix of weights is real, and not empty")
     if matrix.shape != (n, n) or not np.isfinite(matrix.data).all():
         raise MeshError(f"a matrix of weights is square and finite, and this is {matrix.shape}")
     if abs(matrix - matrix.T).max() > 1e-12 * abs(matrix).max() or matrix.diagonal().any():
@@ -121,12 +123,13 @@ def _of_graph(matrix: csr_array, weights: str | None, mass: str | None) -> Lapla
         raise DimensionError(f"{weights} weights need a Mesh: a graph brings its own weights")
     upper = triu(matrix, 1).tocsr()
     upper.sum_duplicates()
+    upper.eliminate_zeros()
     upper.sort_indices()
     rows = np.repeat(np.arange(n), np.diff(upper.indptr))
     edges = read_only(np.stack([rows, upper.indices.astype(np.int64)], axis=1))
     edge_weight = read_only(np.ones(len(edges)) if weights else upper.data.astype(np.float64))
     stiffness = laplacian_matrix(edges, edge_weight, n)
-    kind = check_name("mass of a graph", "degree" if mass is None else mass, ("degree", "unit"))
+    kind = check_name("mass of a graph", "degree" if mass is None else mass, GRAPH_MASSES)
     masses = stiffness.diagonal() if kind == "degree" else np.ones(n)
     if not (masses > 0).all():
         raise MeshError(

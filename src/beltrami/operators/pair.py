@@ -18,6 +18,7 @@ from beltrami.operators import bounds
 from beltrami.operators.areas import diagonal_matrix
 from beltrami.operators.gradient import edge_gradient, incidence_matrix
 
+GRAPH_MASSES = ("degree", "unit")
 MASSES = ("degree", "barycentric", "voronoi", "consistent", "unit")
 
 
@@ -71,10 +72,12 @@ class Laplacian:
     domain: Mesh | Topology | None = field(default=None)
 
     def __repr__(self) -> str:
+        certain = self.weight_kind == "cotangent" or not len(self._negative_edges)
+        definite = ", positive semi-definite" if certain else ", of either sign"
         half = ", (cot α + cot β)/2" if self.weight_kind == "cotangent" else ""
         return (
             f"<Laplacian: {self.n} vertices, {self.weight_kind} weights{half}, "
-            f"{self.mass_kind} mass, positive semi-definite>"
+            f"{self.mass_kind} mass{definite}>"
         )
 
     @property
@@ -127,7 +130,8 @@ class Laplacian:
     def gradient(self) -> csr_array:
         """(p, n) edge gradient G with G'G = L (theorem 6); NegativeWeightError if w < 0 (E40)."""
         slightly = (self.edge_weight < 0) & (self.edge_weight >= -self._rounding)
-        return edge_gradient(self.edges, np.where(slightly, 0, self.edge_weight), self.n)
+        kept = np.where(slightly, 0, self.edge_weight)
+        return edge_gradient(self.edges, kept, self.n)
 
     # ---------------------------------------------------------------- functions
 
@@ -176,6 +180,7 @@ class Laplacian:
         """
         kind = self.mass_kind if mass is None else check_name("mass", mass, MASSES)
         if self.domain is None:
+            check_name("mass of a graph", kind, GRAPH_MASSES)
             masses = self.degrees if kind == "degree" else np.ones(self.n)
             return bounds.largest_edge_eigenvalue(
                 self.edges, self.edge_weight, self.degrees, masses

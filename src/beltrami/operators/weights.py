@@ -79,10 +79,10 @@ def _distance_weights(mesh: Mesh) -> Floats:
     lengths = mesh.edge_lengths
     with np.errstate(divide="ignore", over="ignore"):
         weights = 1 / lengths**2
-    if not np.isfinite(weights).all():
+    if not (np.isfinite(weights) & (weights > 0)).all():
         raise MeshError(
             "distance weights need edges of positive length",
-            edges=mesh.edges[~np.isfinite(weights)],
+            edges=mesh.edges[~(np.isfinite(weights) & (weights > 0))],
             remedy="Weld their ends: repair(mesh, merge_duplicate_vertices=True, "
             "remove_degenerate_faces=True).",
         )

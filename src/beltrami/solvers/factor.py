@@ -8,7 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Floats, rectangular
 from beltrami.errors import DimensionError, NonFiniteError
 
 
@@ -23,6 +23,8 @@ class Backend(Protocol):
 @dataclass(frozen=True, eq=False, repr=False)
 class Factor:
     """The factorisation of a square sparse matrix; ``factorize`` makes it.
+
+    It belongs to its process: it is not pickled, but made anew from the matrix.
 
     Attributes
     ----------
@@ -52,7 +54,7 @@ class Factor:
         NonFiniteError
             If b, or the solution, is not finite.
         """
-        right = np.asarray(b, dtype=np.float64)
+        right = np.asarray(rectangular(b), dtype=np.float64)
         if right.ndim not in (1, 2) or len(right) != self.n:
             raise DimensionError(
                 f"the right-hand side has the shape {right.shape} where ({self.n},) or "

@@ -56,6 +56,8 @@ def factorize(A: Any, coordinates: ArrayLike | None = None, backend: str = "auto
         what = shape or type(A).__name__
         raise DimensionError(f"a square scipy sparse matrix is needed, and this is {what}")
     given: Any = A
+    if not shape[0] or given.dtype.kind not in "biuf":
+        raise DimensionError("a matrix to factorise is real, and not empty")
     matrix = csc_array(given, dtype=np.float64)
     n = matrix.shape[0]
     if coordinates is not None and len(np.asarray(coordinates)) != n:

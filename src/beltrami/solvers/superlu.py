@@ -62,12 +62,17 @@ def _splu(matrix: csc_array, **options: Any) -> Any:
 
 def _trial(matrix: csc_array, factor: Any) -> tuple[float, float]:
     """Solve for a random right-hand side: a bound from below on the condition, backward error."""
-    b = 1 + np.random.default_rng(_SEED).standard_normal(matrix.shape[0]) / 2  # rich in constants
+    n = matrix.shape[0]
+    diagonal = np.abs(matrix.diagonal())
+    scale = np.sqrt(np.where(diagonal > 0, diagonal, 1))  # of the unknowns: units do not count
+    b = 1 + np.random.default_rng(_SEED).standard_normal(n) / 2  # rich in constants
+    entries = matrix.tocoo()
+    scaled = np.abs(entries.data) / scale[entries.row] / scale[entries.col]
     with np.errstate(all="ignore"):
-        x = factor.solve(b)
-        norm = float(abs(matrix).sum(axis=0).max()) * float(np.abs(x).max())
-        condition = norm / float(np.abs(b).max())
-        return condition, float(np.abs(matrix @ x - b).max()) / norm
+        x = factor.solve(scale * b) * scale
+        norm = float(np.bincount(entries.row, scaled, n).max()) * float(np.abs(x).max())
+        residual = (matrix @ (x / scale)) / scale - b
+        return norm / float(np.abs(b).max()), float(np.abs(residual).max()) / norm
 
 
 def _regular(matrix: csc_array, factor: Any) -> Any:
