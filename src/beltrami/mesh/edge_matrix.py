@@ -27,9 +27,7 @@ def symmetric_matrix(
            [5., 1., 7.],
            [0., 7., 1.]])
     """
-    if diagonal is None:
-        return _filled(edges, values, n, np.zeros(0), False)
-    return _filled(edges, values, n, diagonal, False)
+    return _filled(edges, values, n, np.zeros(0) if diagonal is None else diagonal, False)
 
 
 def laplacian_matrix(edges: Integers, weights: Floats, n: int) -> csr_array:

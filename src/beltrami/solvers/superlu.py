@@ -35,9 +35,16 @@ def factorize_superlu(matrix: csc_array, symmetric: bool) -> Any:
             diag_pivot_thresh=0.0,
             options={"SymmetricMode": True},
         )
-        if factor is not None and _trial(matrix, factor)[1] <= _BACKWARD_ERROR:
-            return _regular(matrix, factor)
-    return _regular(matrix, _splu(matrix))
+        condition, error = _trial(matrix, factor)
+        if condition < _CONDITION and error <= _BACKWARD_ERROR:
+            return factor
+    factor = _splu(matrix)
+    if not _trial(matrix, factor)[0] < _CONDITION:
+        raise SingularMatrixError(
+            "the matrix is singular to working precision: a stiffness alone is, because it maps "
+            "constants to zero. Add a mass, or fix a value"
+        )
+    return factor
 
 
 def _may_be_definite(matrix: csc_array) -> bool:
@@ -61,7 +68,12 @@ def _splu(matrix: csc_array, **options: Any) -> Any:
 
 
 def _trial(matrix: csc_array, factor: Any) -> tuple[float, float]:
-    """Solve for a random right-hand side: a bound from below on the condition, backward error."""
+    """Solve for a random right-hand side: a bound from below on the condition, backward error.
+
+    Both are infinite where there is no factor.
+    """
+    if factor is None:
+        return np.inf, np.inf
     n = matrix.shape[0]
     diagonal = np.abs(matrix.diagonal())
     scale = np.sqrt(np.where(diagonal > 0, diagonal, 1))  # of the unknowns: units do not count
@@ -73,14 +85,3 @@ def _trial(matrix: csc_array, factor: Any) -> tuple[float, float]:
         norm = float(np.bincount(entries.row, scaled, n).max()) * float(np.abs(x).max())
         residual = (matrix @ (x / scale)) / scale - b
         return norm / float(np.abs(b).max()), float(np.abs(residual).max()) / norm
-
-
-def _regular(matrix: csc_array, factor: Any) -> Any:
-    """Return the factor, or raise SingularMatrixError."""
-    condition = np.inf if factor is None else _trial(matrix, factor)[0]
-    if not condition < _CONDITION:
-        raise SingularMatrixError(
-            "the matrix is singular to working precision: a stiffness alone is, because it maps "
-            "constants to zero. Add a mass, or fix a value"
-        )
-    return factor
