@@ -11,6 +11,10 @@ CASES = {
     "rounds": (("--steps", 3, "--step", 0.5), {"steps": 3, "step": 0.5}),
     "weights": (("--weights", "distance"), {"weights": "distance"}),
     "implicit": (("--method", "implicit", "--time", 0.01), {"method": "implicit", "time": 0.01}),
+    "mass": (
+        ("--method", "implicit", "--time", 0.01, "--mass", "consistent"),
+        {"method": "implicit", "time": 0.01, "mass": "consistent"},
+    ),
     "volume": (("--keep", "volume"), {"keep": "volume"}),
 }
 

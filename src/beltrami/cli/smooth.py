@@ -8,7 +8,7 @@ import typer
 
 from beltrami.cli.console import waiting
 from beltrami.cli.functions import read_data, write_values
-from beltrami.cli.options import Data, DataName, HoldBoundary, MeshFile, Output, Time, Weights
+from beltrami.cli.options import Data, DataName, HoldBoundary, Mass, MeshFile, Output, Time, Weights
 from beltrami.cli.outputs import check_mesh_output, check_values_output
 
 
@@ -27,6 +27,7 @@ def smooth(
     ] = None,
     time: Time = None,
     weights: Weights = None,
+    mass: Mass = None,
     data: Data = None,
     data_name: DataName = None,
     hold_boundary: HoldBoundary = False,
@@ -43,8 +44,8 @@ def smooth(
     from beltrami.io.registry import read_mesh, write_mesh
     from beltrami.operators.laplacian import laplacian
 
-    if method == "averaging" and time is not None:
-        raise typer.BadParameter("--time goes with --method implicit or explicit")
+    if method == "averaging" and (time is not None or mass is not None):
+        raise typer.BadParameter("--time and --mass go with --method implicit or explicit")
     if method != "averaging" and step is not None:
         raise typer.BadParameter("--step goes with --method averaging")
     if data is not None and method != "averaging":
@@ -73,6 +74,7 @@ def smooth(
             step=step,
             time=time,
             weights=weights,
+            mass=mass,
             hold_boundary=hold_boundary,
             keep=keep,
             progress=progress,
