@@ -32,6 +32,8 @@ def heat(stage: Stage) -> Chapter:
         states,
         caption=[f"t = {number(time)}" for time in times],
         columns=2,
+        colormap="sequential",  # negative weights leave values of -1e-7: no sign to be shown
+        level_set=None,
     )
     rows = tuple(
         (number(time), number(state.min()), number(state.max()), f"{total:.12f}")
