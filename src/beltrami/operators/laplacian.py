@@ -19,20 +19,22 @@ from beltrami.operators.areas import (
     diagonal_matrix,
     vertex_areas,
 )
+from beltrami.operators.domain import Domain
 from beltrami.operators.pair import GRAPH_MASSES, MASSES, Laplacian
 from beltrami.operators.soundness import refuse_unreferenced
 from beltrami.operators.weights import WEIGHTS, weigh_edges
 
-Domain: TypeAlias = "Mesh | Topology | Any"  # Any: a symmetric sparse matrix of weights
+Source: TypeAlias = "Mesh | Topology | Domain | Any"  # Any: a symmetric sparse matrix of weights
 
 
-def laplacian(domain: Domain, weights: str | None = None, mass: str | None = None) -> Laplacian:
+def laplacian(domain: Source, weights: str | None = None, mass: str | None = None) -> Laplacian:
     r"""Make the pair (L, B) of a mesh, of a topology, or of a graph.
 
     Parameters
     ----------
     domain
-        A Mesh; a Topology (combinatorial weights); or a symmetric sparse matrix of weights.
+        A Mesh; a Topology (combinatorial weights); a symmetric sparse matrix of weights; or any
+        object that makes its own pair (``make_laplacian``).
     weights
         ``"cotangent"`` (default on a Mesh), ``"combinatorial"`` (default elsewhere) or
         ``"distance"``: see ``edge_weights``.
@@ -68,6 +70,8 @@ def laplacian(domain: Domain, weights: str | None = None, mass: str | None = Non
     if issparse(domain):
         matrix: Any = domain
         return _of_graph(csr_array(matrix), weights, mass)
+    if isinstance(domain, Domain):
+        return domain.make_laplacian(weights, mass)
     if not isinstance(domain, Mesh | Topology):
         raise DimensionError(
             f"cannot make a Laplacian of an object of type {type(domain).__name__}",
