@@ -38,10 +38,21 @@ if TYPE_CHECKING:
     from beltrami.mesh.repair import repair as repair
     from beltrami.mesh.topology import Topology as Topology
     from beltrami.operators.areas import vertex_areas as vertex_areas
+    from beltrami.operators.colouring import colouring as colouring
+    from beltrami.operators.curvature import Curvature as Curvature
+    from beltrami.operators.curvature import curvature as curvature
+    from beltrami.operators.differences import edge_derivative as edge_derivative
+    from beltrami.operators.edge_areas import edge_areas as edge_areas
+    from beltrami.operators.energy import dirichlet_energy as dirichlet_energy
     from beltrami.operators.gradient import face_divergence as face_divergence
     from beltrami.operators.gradient import face_gradient as face_gradient
+    from beltrami.operators.integrals import integrate as integrate
     from beltrami.operators.laplacian import laplacian as laplacian
+    from beltrami.operators.locality import is_local as is_local
+    from beltrami.operators.neighbours import knn_graph as knn_graph
     from beltrami.operators.pair import Laplacian as Laplacian
+    from beltrami.operators.point_cloud import PointCloud as PointCloud
+    from beltrami.operators.projection import project as project
     from beltrami.operators.weights import edge_weights as edge_weights
     from beltrami.solvers.factor import Factor as Factor
     from beltrami.solvers.factorize import factorize as factorize
@@ -49,22 +60,33 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOME = {
-    "DirectionalLight": "display.light",
+    "Curvature": "operators.curvature",
     "Diagnosis": "mesh.diagnose",
+    "DirectionalLight": "display.light",
     "Factor": "solvers.factor",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
+    "PointCloud": "operators.point_cloud",
     "Repair": "mesh.repair",
     "SpotLight": "display.light",
     "Topology": "mesh.topology",
     "as_mesh": "mesh.convert",
+    "colouring": "operators.colouring",
+    "curvature": "operators.curvature",
     "diagnose": "mesh.diagnose",
+    "dirichlet_energy": "operators.energy",
+    "edge_areas": "operators.edge_areas",
+    "edge_derivative": "operators.differences",
     "edge_weights": "operators.weights",
     "face_divergence": "operators.gradient",
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
     "heat": "diffusion.heat",
+    "integrate": "operators.integrals",
+    "is_local": "operators.locality",
+    "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",
+    "project": "operators.projection",
     "read_function": "io.function",
     "read_mesh": "io.registry",
     "render": "display.render",

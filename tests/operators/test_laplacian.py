@@ -15,7 +15,7 @@ from beltrami.errors import (
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.pair import MASSES
-from beltrami.operators.weights import WEIGHTS
+from beltrami.operators.weights import SYMMETRIC_WEIGHTS, WEIGHTS
 from meshes_of_the_errata import IRREGULAR, MESHES, triangle
 
 
@@ -108,7 +108,7 @@ def test_misspelt_names():
     mesh = triangle(60, 60)
     with pytest.raises(UnknownNameError, match="Did you mean 'combinatorial'") as caught:
         laplacian(mesh, "combinatoric")
-    assert caught.value.choices == WEIGHTS
+    assert caught.value.choices == (*SYMMETRIC_WEIGHTS, "tufted")
     with pytest.raises(UnknownNameError, match="Did you mean 'barycentric'") as caught:
         laplacian(mesh, mass="barycenter")
     assert caught.value.choices == MASSES

@@ -90,7 +90,9 @@ def test_combinatorial_weights_need_no_positions():
 def test_misspelt_names_are_answered_with_the_right_ones():
     with pytest.raises(UnknownNameError, match=r"Did you mean 'cotangent'\?") as caught:
         edge_weights(triangle(60, 60), "cotan")
-    assert caught.value.choices == ("combinatorial", "distance", "cotangent")
+    assert caught.value.choices == (
+        "combinatorial", "distance", "cotangent", "clamped", "mean_value"
+    )  # fmt: skip
 
 
 def test_defects_are_named():

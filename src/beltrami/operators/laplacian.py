@@ -22,12 +22,15 @@ from beltrami.operators.areas import (
 from beltrami.operators.domain import Domain
 from beltrami.operators.pair import GRAPH_MASSES, MASSES, Laplacian
 from beltrami.operators.soundness import refuse_unreferenced
-from beltrami.operators.weights import WEIGHTS, weigh_edges
+from beltrami.operators.tufted import tufted_laplacian
+from beltrami.operators.weights import SYMMETRIC_WEIGHTS, Weigher, weigh_edges
 
 Source: TypeAlias = "Mesh | Topology | Domain | Any"  # Any: a symmetric sparse matrix of weights
 
 
-def laplacian(domain: Source, weights: str | None = None, mass: str | None = None) -> Laplacian:
+def laplacian(
+    domain: Source, weights: str | Weigher | None = None, mass: str | None = None
+) -> Laplacian:
     r"""Make the pair (L, B) of a mesh, of a topology, or of a graph.
 
     Parameters
@@ -37,11 +40,13 @@ def laplacian(domain: Source, weights: str | None = None, mass: str | None = Non
         object that makes its own pair (``make_laplacian``).
     weights
         ``"cotangent"`` (default on a Mesh), ``"combinatorial"`` (default elsewhere) or
-        ``"distance"``: see ``edge_weights``.
+        ``"distance"``, ``"clamped"``, or a callable: see ``edge_weights``. ``"tufted"``: never
+        negative, for what is no manifold or has flat faces; it wants the extra ``robust``, and
+        brings its own areas (mass ``"barycentric"``, ``"degree"`` or ``"unit"``).
     mass
-        ``"voronoi"`` (default for cotangent weights), ``"barycentric"``, ``"consistent"`` (full
-        finite elements), ``"degree"`` (default otherwise: B = D) or ``"unit"``. Those of areas
-        add to the area of the surface.
+        ``"voronoi"`` (default for cotangents, clamped ones too), ``"barycentric"``,
+        ``"consistent"`` (full finite elements), ``"degree"`` (default otherwise: B = D) or
+        ``"unit"``. Those of areas add to the area of the surface.
 
     Raises
     ------
@@ -50,7 +55,12 @@ def laplacian(domain: Source, weights: str | None = None, mass: str | None = Non
     EmptyMeshError, NonFiniteError, DegenerateFaceError, UnreferencedVertexError
         If the mesh is not sound: the error names the vertices or faces, and the repair.
     MeshError
-        If a matrix of weights is not square, symmetric and finite, or has a diagonal.
+        If weights are not symmetric: those of the mean value, or a matrix that is not square,
+        symmetric and finite, or has a diagonal.
+    NegativeWeightError
+        If a callable returns negative weights.
+    MissingExtraError
+        If tufted weights are asked for and robust_laplacian is not installed.
 
     Notes
     -----
@@ -67,31 +77,49 @@ def laplacian(domain: Source, weights: str | None = None, mass: str | None = Non
     >>> round(pair.dirichlet_energy(mesh.vertices[:, 0]), 12), pair.masses.sum()
     (1.0, np.float64(1.0))
     """
+    if callable(weights) and not isinstance(domain, Mesh | Topology):
+        raise DimensionError("a callable weighs the edges of a Mesh or of a Topology only")
+    name: Any = weights
     if issparse(domain):
         matrix: Any = domain
-        return _of_graph(csr_array(matrix), weights, mass)
+        return _of_graph(csr_array(matrix), name, mass)
     if isinstance(domain, Domain):
-        return domain.make_laplacian(weights, mass)
+        return domain.make_laplacian(name, mass)
     if not isinstance(domain, Mesh | Topology):
         raise DimensionError(
             f"cannot make a Laplacian of an object of type {type(domain).__name__}",
             remedy="Give a Mesh (see as_mesh), a Topology or a symmetric sparse matrix.",
         )
     default = "cotangent" if isinstance(domain, Mesh) else "combinatorial"
-    weight_kind = check_name("weights", default if weights is None else weights, WEIGHTS)
-    natural = "voronoi" if weight_kind == "cotangent" else "degree"
+    rule = default if weights is None else weights
+    weight_kind = "given" if callable(rule) else _checked_kind(rule)
+    if weight_kind == "tufted":
+        return tufted_laplacian(domain, mass)
+    natural = "voronoi" if weight_kind in ("cotangent", "clamped") else "degree"
     mass_kind = check_name("mass", natural if mass is None else mass, MASSES)
     topology = domain.topology if isinstance(domain, Mesh) else domain
-    edge_weight, areas = _weights_and_areas(domain, weight_kind, mass_kind)
+    edge_weight, areas = _weights_and_areas(domain, rule, mass_kind)
     stiffness = laplacian_matrix(topology.edges, edge_weight, topology.n_vertices)
     if (np.diff(stiffness.indptr) == 1).any():  # a row that holds its diagonal alone
         refuse_unreferenced(topology)
     masses = _mass_matrix(domain, stiffness, mass_kind, areas)
+    if mass_kind == "degree" and weight_kind == "given":
+        _require_degrees(masses.diagonal())
     return Laplacian(stiffness, masses, topology.edges, edge_weight, weight_kind, mass_kind, domain)
 
 
+def _checked_kind(name: str) -> str:
+    if name == "mean_value":
+        raise MeshError(
+            "mean value weights are not symmetric: they serve maps, and no Laplacian",
+            remedy='Use "clamped" weights, which are positive too, or edge_weights(mesh, '
+            '"mean_value") for a map.',
+        )
+    return check_name("weights", name, (*SYMMETRIC_WEIGHTS, "tufted"))
+
+
 def _weights_and_areas(
-    domain: Mesh | Topology, weights: str, mass: str
+    domain: Mesh | Topology, weights: str | Weigher, mass: str
 ) -> tuple[Floats, Floats | None]:
     """Weigh the edges; cotangents and areas come out of one pass over the faces."""
     if not isinstance(domain, Mesh) and mass not in ("degree", "unit"):
@@ -135,11 +163,15 @@ def _of_graph(matrix: csr_array, weights: str | None, mass: str | None) -> Lapla
     stiffness = laplacian_matrix(edges, edge_weight, n)
     kind = check_name("mass of a graph", "degree" if mass is None else mass, GRAPH_MASSES)
     masses = stiffness.diagonal() if kind == "degree" else np.ones(n)
+    _require_degrees(masses)
+    name = "combinatorial" if weights else "given"
+    return Laplacian(stiffness, diagonal_matrix(masses), edges, edge_weight, name, kind)
+
+
+def _require_degrees(masses: Floats) -> None:
     if not (masses > 0).all():
         raise MeshError(
             "vertices have no positive degree, so D cannot be inverted",
             vertices=np.flatnonzero(masses <= 0),
             remedy='Drop them, or use mass="unit".',
         )
-    name = "combinatorial" if weights else "given"
-    return Laplacian(stiffness, diagonal_matrix(masses), edges, edge_weight, name, kind)

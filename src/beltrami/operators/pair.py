@@ -17,32 +17,15 @@ from beltrami.mesh.topology import Topology
 from beltrami.operators import bounds
 from beltrami.operators.areas import diagonal_matrix
 from beltrami.operators.gradient import edge_gradient, incidence_matrix
+from beltrami.operators.guarantees import (
+    GIVEN,
+    WEIGHT_KINDS,
+    LaplacianProperties,
+    properties_of,
+)
 
 GRAPH_MASSES = ("degree", "unit")
 MASSES = ("degree", "barycentric", "voronoi", "consistent", "unit")
-
-
-@dataclass(frozen=True, eq=False)
-class LaplacianProperties:
-    """What is true of a Laplacian, told and not assumed.
-
-    Attributes
-    ----------
-    non_negative_weights
-        Whether no weight is negative: then averaging obeys the maximum principle, and with the
-        degree mass the spectrum lies in [0, 2] (theorem 9).
-    negative_edges
-        (q, 2) int: the edges with a negative weight.
-    linear_precision
-        Whether L x = 0 inside a planar mesh: cotangent weights only.
-    spectral_bound
-        An upper bound on the eigenvalues of the pair (L, B).
-    """
-
-    non_negative_weights: bool
-    negative_edges: Integers
-    linear_precision: bool
-    spectral_bound: float
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -72,7 +55,7 @@ class Laplacian:
     domain: Mesh | Topology | None = field(default=None)
 
     def __repr__(self) -> str:
-        certain = self.weight_kind == "cotangent" or not len(self._negative_edges)
+        certain = self._of_a_surface or not len(self._negative_edges)
         definite = ", positive semi-definite" if certain else ", of either sign"
         half = ", (cot α + cot β)/2" if self.weight_kind == "cotangent" else ""
         return (
@@ -163,11 +146,13 @@ class Laplacian:
     @cached_property
     def properties(self) -> LaplacianProperties:
         """What is true of these weights on this mesh."""
-        return LaplacianProperties(
-            non_negative_weights=not len(self._negative_edges),
-            negative_edges=self._negative_edges,
-            linear_precision=self.weight_kind == "cotangent",
-            spectral_bound=self.spectral_bound(),
+        return properties_of(
+            self.weight_kind,
+            self.edges,
+            self.edge_weight,
+            self.n,
+            self._negative_edges,
+            self.spectral_bound(),
         )
 
     def spectral_bound(self, mass: str | None = None) -> float:
@@ -180,8 +165,11 @@ class Laplacian:
         """
         kind = self.mass_kind if mass is None else check_name("mass", mass, MASSES)
         if self.domain is None:
-            check_name("mass of a graph", kind, GRAPH_MASSES)
-            masses = self.degrees if kind == "degree" else np.ones(self.n)
+            check_name(
+                "mass of a graph", kind, tuple(dict.fromkeys((*GRAPH_MASSES, self.mass_kind)))
+            )
+            known = {"degree": self.degrees, "unit": np.ones(self.n)}
+            masses = known.get(kind, self.masses)
             return bounds.largest_edge_eigenvalue(
                 self.edges, self.edge_weight, self.degrees, masses
             )
@@ -206,7 +194,11 @@ class Laplacian:
     @property
     def _rounding(self) -> float:
         """What a weight may be off: the cotangents of right angles come out as ±1e-16."""
-        return 1e-12 if self.weight_kind == "cotangent" else 0.0
+        return 1e-12 if self._of_a_surface else 0.0
+
+    @property
+    def _of_a_surface(self) -> bool:
+        return WEIGHT_KINDS.get(self.weight_kind, GIVEN).of_a_surface
 
     def _require_degrees(self) -> None:
         alone = np.flatnonzero(self.degrees <= 0)
