@@ -17,7 +17,7 @@ from beltrami.operators.mean_value import mean_value_weights
 from beltrami.operators.weights import edge_weights
 from meshes_of_the_errata import IRREGULAR, MESHES, flipped, triangle
 
-pytestmark = pytest.mark.chapter("P74")
+pytestmark = pytest.mark.chapter("X3")
 
 
 def _dense(mesh):

@@ -97,6 +97,8 @@ def test_points_of_the_sphere():
     regular = laplacian(PointCloud(sphere.vertices), "tufted")
     L = laplacian(sphere).stiffness
     assert abs(regular.stiffness - L).max() < 1e-12 * abs(L).max()
+    few = laplacian(PointCloud(points, 6), "tufted")  # the number of neighbours matters
+    assert abs(few.stiffness - cloud.stiffness).max() > 1e-3
     unit = laplacian(PointCloud(points), "tufted", "unit")
     assert (unit.masses == 1).all()
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-import voronoi_oracle as oracle
+import cell_oracle as oracle
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.areas import vertex_areas
 from beltrami.operators.edge_areas import edge_areas

@@ -99,9 +99,9 @@ def _smallest_last(starts: Any, neighbours: Any) -> Any:
     order = np.empty(n, np.int64)
     count = 0
     while count < n:
-        degree, v = heappop(heap)
-        if gone[v] or degree != left[v]:
-            continue  # an old entry
+        _, v = heappop(heap)
+        if gone[v]:
+            continue  # an old entry: a newer one, with fewer neighbours, came out before
         gone[v] = True
         order[count] = v
         count += 1

@@ -57,6 +57,8 @@ WEIGHT_KINDS = {
 class LaplacianProperties:
     """What is true of a Laplacian, told and not assumed.
 
+    Chapter items: T7, T9, P16.
+
     Attributes
     ----------
     symmetric

@@ -1,4 +1,4 @@
-"""Mean value weights: positive, linearly precise, and not symmetric (P74 of the chapter)."""
+"""Mean value weights: positive, linearly precise, and not symmetric (l. 683 of the chapter)."""
 
 from __future__ import annotations
 

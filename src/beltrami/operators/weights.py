@@ -53,7 +53,7 @@ def edge_weights(domain: Mesh | Topology, kind: str | Weigher) -> csr_array:
     :math:`w_{ij} \ne w_{ji}`. They serve maps; ``laplacian`` refuses them. All others are
     symmetric. What each kind promises is ``laplacian(...).properties``.
 
-    Chapter items: Q3.3, X3, P16, P17, P74.
+    Chapter items: Q3.3, X3, P16, P17.
 
     Returns
     -------
