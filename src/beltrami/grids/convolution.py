@@ -155,14 +155,15 @@ def _direct(f: Values, w: Values) -> Values:
     """Add up the shifts of f."""
     out = np.zeros(f.shape, np.result_type(f, w))
     axes = tuple(range(f.ndim))
-    for k in np.argwhere(w):
-        out += w[tuple(k)] * np.roll(f, k, axes)
+    with np.errstate(over="ignore", invalid="ignore"):  # told by refuse_overflow
+        for k in np.argwhere(w):
+            out += w[tuple(k)] * np.roll(f, k, axes)
     return out
 
 
 def _by_fft(f: Values, w: Values, times: int) -> Values:
     """Multiply the transforms; half of them is enough where both are real."""
-    with np.errstate(over="ignore", invalid="ignore"):  # told by refuse_overflow
+    with np.errstate(over="ignore", invalid="ignore"):
         if np.iscomplexobj(f) or np.iscomplexobj(w):
             return np.asarray(scipy.fft.ifftn(scipy.fft.fftn(f) * scipy.fft.fftn(w) ** times))
         half: NDArray[np.complex128] = scipy.fft.rfftn(f.real) * scipy.fft.rfftn(w.real) ** times
