@@ -65,9 +65,9 @@ def convolve(f: ArrayLike, kernel: ArrayLike, method: str = "auto") -> Values:
 def cheaper_method(n: int, nonzeros: int) -> str:
     """Tell whether q shifts of n values, or three FFTs, cost less: ``"direct"`` or ``"fft"``.
 
-    The three transforms of n values take about the time of log2(n)/2 shifts, a little more where
-    p has large prime factors. So the kernels of local operators (2d + 1 values) are convolved
-    directly on all but small grids, as the chapter says (l. 268).
+    A rule of thumb: shifts if there are at most log2(n)/2 of them. Where p has large prime factors
+    transforms cost up to three times more. So the kernels of local operators (2d + 1 values) are
+    convolved directly on all but small grids, as the chapter says (l. 268).
 
     Chapter items: P28.
 

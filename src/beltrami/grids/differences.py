@@ -2,6 +2,8 @@ r"""Partial derivatives by differences along the axes of a grid (3.2.5, E41)."""
 
 from __future__ import annotations
 
+from math import prod
+
 import numpy as np
 from scipy.sparse import csr_array, eye_array, kron, vstack
 
@@ -14,15 +16,14 @@ SCHEMES = ("forward", "backward", "centered")
 def grid_gradient(axes: Axes, scheme: str) -> csr_array:
     """Return the (d n, n) matrix of the differences along each axis, the first axis on top."""
     check_name("scheme of differences", scheme, SCHEMES)
+    shape = [axis.size for axis in axes]
     blocks = []
     for a, axis in enumerate(axes):
-        block = _difference(axis, scheme)
-        for other in axes[:a][::-1]:
-            block = kron(eye_array(other.size), block, format="csr")
-        for other in axes[a + 1 :]:
-            block = kron(block, eye_array(other.size), format="csr")
-        blocks.append(block)
-    return csr_array(vstack(blocks, format="csr"))
+        before, after = eye_array(prod(shape[:a])), eye_array(prod(shape[a + 1 :]))
+        blocks.append(kron(kron(before, _difference(axis, scheme)), after, format="csr"))
+    matrix = csr_array(vstack(blocks, format="csr"))
+    matrix.eliminate_zeros()  # those of kron, and those where both ends are one point
+    return matrix
 
 
 def _difference(axis: Axis, scheme: str) -> csr_array:
@@ -36,7 +37,4 @@ def _difference(axis: Axis, scheme: str) -> csr_array:
     step = 2 * h if scheme == "centered" else h
     rows = np.concatenate([here, here])
     values = np.repeat([-1 / step, 1 / step], p)
-    matrix = csr_array((values, (rows, np.concatenate([left, right]))), shape=(p, p))
-    matrix.sum_duplicates()
-    matrix.eliminate_zeros()  # where both ends are one point
-    return matrix
+    return csr_array((values, (rows, np.concatenate([left, right]))), shape=(p, p))

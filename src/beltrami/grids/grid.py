@@ -85,9 +85,9 @@ class Grid(Points):
 
         Notes
         -----
-        Cost: O(d n log n).
+        Cost: O(d n).
 
-        Chapter items: U21, U24, P25, P36.
+        Chapter items: U21, U22, U24, U25, P25, P36.
 
         Examples
         --------

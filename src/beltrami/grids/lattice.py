@@ -64,21 +64,24 @@ def lattice_edges(axes: Axes) -> tuple[Integers, Integers]:
 
     The neighbours of a point are those one step away, modulo p on a periodic axis. On a circle
     of two they are one point, and the edge is listed once; on one of a single point there is no
-    other.
+    other. Cost: O(d n).
     """
-    shape = tuple(axis.size for axis in axes)
-    numbers = np.arange(prod(shape), dtype=np.int64).reshape(shape)
-    ends, along = [], []
-    for a, axis in enumerate(axes):
-        rows = np.moveaxis(numbers, a, 0)
-        pairs = [np.stack([rows[:-1].ravel(), rows[1:].ravel()], axis=1)]
+    numbers = np.arange(prod(axis.size for axis in axes), dtype=np.int64)
+    steps, along, taken = [], [], []  # in the order of the steps: nothing is to be sorted
+    stride = 1
+    for a, axis in reversed(list(enumerate(axes))):
+        place = numbers // stride % axis.size
+        ways = [(stride, place < axis.size - 1)]
         if axis.periodic and axis.size > 2:
-            pairs.append(np.stack([rows[0].ravel(), rows[-1].ravel()], axis=1))
-        ends += pairs
-        along += [np.full(len(some), a) for some in pairs]
-    edges, axis_of = np.concatenate(ends), np.concatenate(along)
-    order = np.lexsort((edges[:, 1], edges[:, 0]))
-    return np.ascontiguousarray(edges[order]), axis_of[order]
+            ways.append(((axis.size - 1) * stride, place == 0))
+        for step, possible in ways:
+            steps.append(step)
+            along.append(a)
+            taken.append(possible)
+        stride *= axis.size
+    start, way = np.nonzero(np.stack(taken, axis=1))
+    edges = np.stack([start, start + np.array(steps)[way]], axis=1)
+    return edges, np.array(along)[way]
 
 
 def lattice_pair(axes: Axes, names: Kinds) -> Laplacian:
