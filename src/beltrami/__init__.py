@@ -26,6 +26,10 @@ if TYPE_CHECKING:
     from beltrami.display.light import DirectionalLight as DirectionalLight
     from beltrami.display.light import SpotLight as SpotLight
     from beltrami.display.render import render as render
+    from beltrami.grids.convolution import convolve as convolve
+    from beltrami.grids.grid import Grid as Grid
+    from beltrami.grids.transform import dft as dft
+    from beltrami.grids.transform import idft as idft
     from beltrami.io.function import read_function as read_function
     from beltrami.io.registry import read_mesh as read_mesh
     from beltrami.io.registry import write_mesh as write_mesh
@@ -52,18 +56,22 @@ _HOME = {
     "DirectionalLight": "display.light",
     "Diagnosis": "mesh.diagnose",
     "Factor": "solvers.factor",
+    "Grid": "grids.grid",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
     "Repair": "mesh.repair",
     "SpotLight": "display.light",
     "Topology": "mesh.topology",
     "as_mesh": "mesh.convert",
+    "convolve": "grids.convolution",
+    "dft": "grids.transform",
     "diagnose": "mesh.diagnose",
     "edge_weights": "operators.weights",
     "face_divergence": "operators.gradient",
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
     "heat": "diffusion.heat",
+    "idft": "grids.transform",
     "laplacian": "operators.laplacian",
     "read_function": "io.function",
     "read_mesh": "io.registry",

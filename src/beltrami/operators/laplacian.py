@@ -33,8 +33,8 @@ def laplacian(domain: Source, weights: str | None = None, mass: str | None = Non
     Parameters
     ----------
     domain
-        A Mesh; a Topology (combinatorial weights); a symmetric sparse matrix of weights; or any
-        object that makes its own pair (``make_laplacian``).
+        A Mesh; a Topology (combinatorial weights); a Grid, or another object that makes its own
+        pair (``make_laplacian``, which names its weights); or a symmetric sparse matrix of weights.
     weights
         ``"cotangent"`` (default on a Mesh), ``"combinatorial"`` (default elsewhere) or
         ``"distance"``: see ``edge_weights``.
