@@ -2,6 +2,7 @@
 
 import doctest
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -16,38 +17,52 @@ FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 WITHOUT_NUMBER = {"E95": "slips of writing and numbering, which nothing can compute"}
 
 
-def code_of(text: str) -> str:
-    """Blank all lines outside of the python blocks, so that the numbers of the lines stay true."""
-    inside, lines = False, []
-    for line in text.splitlines():
-        fence = line.startswith("```")
-        lines.append(line if inside and not fence else "")
-        inside = (line == "```python") if fence else inside
-    return "\n".join(lines) + "\n"
+def parts_of(text: str) -> list[tuple[str, str]]:
+    """Cut a page at its headings; what is not an entry has no name."""
+    cut = re.split(r"^(###? .*)$", text, flags=re.MULTILINE)
+    found = [("", cut[0])]
+    for heading, body in zip(cut[1::2], cut[2::2], strict=True):
+        name = re.match(r"### (E\d+)\. \S", heading)
+        found.append((name[1] if name else "", body))
+    return found
 
 
-def entries_of(text: str) -> list[tuple[str, str]]:
-    """Return the name and the text of each entry, in order."""
-    parts = re.split(r"^(?:### (E\d+)\. .*|## .*)$", text, flags=re.MULTILINE)
-    return [(name, body) for name, body in zip(parts[1::2], parts[2::2], strict=True) if name]
+PARTS = [part for page in PAGES for part in parts_of(page.read_text(encoding="utf-8"))]
+ENTRIES = [(name, text) for name, text in PARTS if name]
 
 
-ENTRIES = [entry for page in PAGES for entry in entries_of(page.read_text(encoding="utf-8"))]
-
-
-def test_every_number_of_the_page_is_what_runs_give():
-    scope: dict[str, object] = {}
+def failures(name: str, text: str, scope: dict[str, object]) -> str:
+    """Run the python blocks of a text; what doctest has to say, or nothing."""
+    blocks = re.findall(r"^```python\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+    test = doctest.DocTestParser().get_doctest("\n\n".join(blocks), {}, name, None, 0)
+    test.globs = scope
     said: list[str] = []
-    tried = 0
-    for page in PAGES:
-        code = code_of(page.read_text(encoding="utf-8"))
-        test = doctest.DocTestParser().get_doctest(code, {}, page.name, str(page), 0)
-        test.globs = scope  # one namespace: the second half uses the meshes of the first
-        runner = doctest.DocTestRunner(optionflags=FLAGS)
-        runner.run(test, out=said.append, clear_globs=False)
-        tried += runner.tries
-    assert not said, "".join(said)
-    assert tried > len(ENTRIES)
+    doctest.DocTestRunner(optionflags=FLAGS).run(test, out=said.append, clear_globs=False)
+    return "".join(said)
+
+
+@cache
+def head() -> dict[str, object]:
+    """Run the blocks that stand before or between the entries: the meshes of the page."""
+    scope: dict[str, object] = {}
+    for name, text in PARTS:
+        assert name or not (said := failures("head", text, scope)), said
+    return scope
+
+
+@pytest.mark.parametrize(("name", "text"), ENTRIES, ids=[name for name, _ in ENTRIES])
+def test_the_numbers_of_an_entry_are_what_a_run_gives(name, text):
+    said = failures(name, text, dict(head()))  # a copy: an entry needs the head, and no other entry
+    assert not said, said
+
+
+@pytest.mark.parametrize(("name", "text"), ENTRIES, ids=[name for name, _ in ENTRIES])
+def test_an_entry_says_what_is_printed_what_is_true_and_why_and_shows_it(name, text):
+    words = re.findall(r"^\*\*(Printed|True|Because)\*\*", text, re.MULTILINE)
+    assert words == ["Printed", "True", "Because"]
+    assert (">>> " in text) != (name in WITHOUT_NUMBER)
+    fences = re.findall(r"^```.*$", text, re.MULTILINE)
+    assert fences == ["```python", "```"] * (len(fences) // 2)
 
 
 def test_no_slip_is_listed_twice_and_all_are_in_order():
@@ -60,17 +75,13 @@ def test_all_95_slips_are_listed():
     assert [name for name, _ in ENTRIES] == ALL
 
 
-@pytest.mark.parametrize(("name", "text"), ENTRIES, ids=[name for name, _ in ENTRIES])
-def test_an_entry_says_what_is_printed_what_is_true_and_why_and_runs(name, text):
-    words = re.findall(r"\*\*(Printed|True|Because)\*\*", text)
-    assert words == ["Printed", "True", "Because"]
-    assert (">>> " in text) != (name in WITHOUT_NUMBER)
-
-
 def test_a_wrong_number_on_the_page_would_be_found():
-    page = PAGES[0].read_text(encoding="utf-8")
-    assert page.count("300 596 312 0") == 1
-    code = code_of(page.replace("300 596 312 0", "300 596 313 0"))
-    head = code[: code.index(">>> irregular") + 400]
-    test = doctest.DocTestParser().get_doctest(head, {}, "head", None, 0)
-    assert doctest.DocTestRunner(optionflags=FLAGS).run(test, out=lambda _: None).failed == 1
+    name, text = next(entry for entry in ENTRIES if entry[0] == "E16")
+    wrong = text.replace("printed 10.0", "printed 10.5")
+    assert wrong != text
+    assert "Got:\n    printed 10.0" in failures(name, wrong, dict(head()))
+
+
+def test_every_heading_of_an_entry_is_recognized():
+    text = "".join(page.read_text(encoding="utf-8") for page in PAGES)
+    assert len(re.findall(r"^### ", text, re.MULTILINE)) == len(ENTRIES)
