@@ -26,6 +26,10 @@ if TYPE_CHECKING:
     from beltrami.display.light import DirectionalLight as DirectionalLight
     from beltrami.display.light import SpotLight as SpotLight
     from beltrami.display.render import render as render
+    from beltrami.grids.convolution import convolve as convolve
+    from beltrami.grids.grid import Grid as Grid
+    from beltrami.grids.transform import dft as dft
+    from beltrami.grids.transform import idft as idft
     from beltrami.io.function import read_function as read_function
     from beltrami.io.registry import read_mesh as read_mesh
     from beltrami.io.registry import write_mesh as write_mesh
@@ -64,6 +68,7 @@ _HOME = {
     "Diagnosis": "mesh.diagnose",
     "DirectionalLight": "display.light",
     "Factor": "solvers.factor",
+    "Grid": "grids.grid",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
     "PointCloud": "operators.point_cloud",
@@ -72,7 +77,9 @@ _HOME = {
     "Topology": "mesh.topology",
     "as_mesh": "mesh.convert",
     "colouring": "operators.colouring",
+    "convolve": "grids.convolution",
     "curvature": "operators.curvature",
+    "dft": "grids.transform",
     "diagnose": "mesh.diagnose",
     "dirichlet_energy": "operators.energy",
     "edge_areas": "operators.edge_areas",
@@ -82,6 +89,7 @@ _HOME = {
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
     "heat": "diffusion.heat",
+    "idft": "grids.transform",
     "integrate": "operators.integrals",
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",

@@ -75,23 +75,25 @@ def read_obj(source: Source) -> Mesh:
 
 def _fill(source: Source, state: NDArray[np.int64], limits: NDArray[np.int64]) -> Any:
     """Scan the whole file into arrays that grow when they are full."""
-    rows = len(source.data) // _BYTES_OF_LINE + 16
+    rows = source.size // _BYTES_OF_LINE + 16
     x, rgba, uv = np.empty((rows, 3)), np.empty((rows, 4)), np.empty((rows, 2))
     faces, turns = np.empty((rows, 3), np.int64), np.empty((rows, 3), np.int64)
-    while True:
-        status = lines.scan(source.data, state, limits, x, rgba, uv, faces, turns)
-        if status == lines.DONE:
-            return x, rgba, uv, faces, turns
-        full = {
-            lines.MORE_VERTICES: (x, rgba),
-            lines.MORE_TEXTURES: (uv,),
-            lines.MORE_FACES: (faces, turns),
-        }
-        if status not in full:
+    full = {
+        lines.MORE_VERTICES: (x, rgba),
+        lines.MORE_TEXTURES: (uv,),
+        lines.MORE_FACES: (faces, turns),
+    }
+    for start, block in source.blocks():
+        state[lines.POSITION] = 0
+        status = lines.scan(block, state, limits, x, rgba, uv, faces, turns)
+        while status in full:
+            for array in full[status]:
+                trimmed(array, 2 * len(array))
+            status = lines.scan(block, state, limits, x, rgba, uv, faces, turns)
+        if status != lines.DONE:
             expected = _EXPECTED[status].format(*(count_or_all(k) for k in limits))
-            raise source.unexpected(int(state[lines.FAULT]), expected)
-        for array in full[status]:
-            trimmed(array, 2 * len(array))
+            raise source.unexpected(start + int(state[lines.FAULT]), expected)
+    return x, rgba, uv, faces, turns
 
 
 def count_or_all(limit: int) -> str:

@@ -5,8 +5,11 @@ from __future__ import annotations
 import gzip
 import os
 import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +17,12 @@ from numpy.typing import NDArray
 from beltrami.errors import FileFormatError
 
 _SHOWN = 40  # of the bytes at fault
+_BLOCK = 1 << 20  # bytes read at a time: they stay in the processor's cache
 
 
-class Source(NamedTuple):
-    r"""A file read into memory: its name and its bytes.
+@dataclass(frozen=True, eq=False)
+class Source:
+    r"""A file: its name and its bytes, which are read when they are first asked for.
 
     Examples
     --------
@@ -28,7 +33,49 @@ class Source(NamedTuple):
     """
 
     path: Path | str
-    data: NDArray[np.uint8]
+    content: NDArray[np.uint8] | None = None
+
+    @cached_property
+    def data(self) -> NDArray[np.uint8]:
+        """All the bytes."""
+        return np.fromfile(self.path, np.uint8) if self.content is None else self.content
+
+    @property
+    def size(self) -> int:
+        """How many bytes there are."""
+        return Path(self.path).stat().st_size if self.content is None else len(self.content)
+
+    def blocks(self) -> Iterator[tuple[int, NDArray[np.uint8]]]:
+        r"""Run through a text of lines: (position, bytes), cut after ends of lines.
+
+        Not after one with a backslash before it, which continues the line. A file is read block
+        by block into the same memory, so a block is gone when the next one is asked for.
+
+        Examples
+        --------
+        >>> source = Source("a.obj", np.frombuffer(b"v 0 0 0\n", np.uint8))
+        >>> [(start, len(block)) for start, block in source.blocks()]
+        [(0, 8)]
+        """
+        if self.content is not None:
+            yield 0, self.content
+            return
+        with Path(self.path).open("rb", buffering=0) as file:
+            buffer, start, kept = bytearray(_BLOCK), 0, 0
+            while count := file.readinto(memoryview(buffer)[kept:]):
+                end = kept + count
+                cut = _last_line(buffer, end)
+                if cut:
+                    yield start, np.frombuffer(buffer, np.uint8, cut)
+                kept = end - cut
+                longer = max(_BLOCK, 2 * kept)
+                rest = buffer[cut:end]
+                if longer != len(buffer):
+                    buffer = bytearray(longer)
+                buffer[:kept] = rest
+                start += cut
+            if kept:
+                yield start, np.frombuffer(buffer, np.uint8, kept)
 
     def line_at(self, position: int) -> int:
         """Return the number of the line, from 1, at this position."""
@@ -55,8 +102,19 @@ class Source(NamedTuple):
         return FileFormatError(self.path, problem, byte=int(position))
 
 
+def _last_line(text: bytearray, end: int) -> int:
+    """Return the position after the last end of a line that is not continued; 0 without one."""
+    while True:
+        end = text.rfind(b"\n", 0, end)
+        if end < 0:
+            return 0
+        line = text[text.rfind(b"\n", 0, end) + 1 : end]
+        if not line.rstrip().endswith(b"\\"):
+            return end + 1
+
+
 def load(path: str | os.PathLike[str]) -> Source:
-    """Read a whole file; one whose name ends in ``.gz`` is decompressed.
+    """Open a file; one whose name ends in ``.gz`` is decompressed.
 
     Raises
     ------
@@ -69,7 +127,8 @@ def load(path: str | os.PathLike[str]) -> Source:
     if place.is_dir():
         raise FileFormatError(place, "expected a file, found a directory. Name a file in it")
     if place.suffix.lower() != ".gz":
-        return Source(place, np.fromfile(place, np.uint8))
+        with place.open("rb"):  # what cannot be opened is known here
+            return Source(place)
     try:
         content = gzip.decompress(place.read_bytes())
     except (EOFError, zlib.error, gzip.BadGzipFile) as cause:

@@ -36,8 +36,8 @@ def laplacian(
     Parameters
     ----------
     domain
-        A Mesh; a Topology (combinatorial weights); a symmetric sparse matrix of weights; or any
-        object that makes its own pair (``make_laplacian``).
+        A Mesh; a Topology (combinatorial weights); a Grid, or another object that makes its own
+        pair (``make_laplacian``, which names its weights); or a symmetric sparse matrix of weights.
     weights
         ``"cotangent"`` (default on a Mesh), ``"combinatorial"`` (default elsewhere) or
         ``"distance"``, ``"clamped"``, or a callable: see ``edge_weights``. ``"tufted"``: never

@@ -165,11 +165,11 @@ class Laplacian:
         """
         kind = self.mass_kind if mass is None else check_name("mass", mass, MASSES)
         if self.domain is None:
-            check_name(
-                "mass of a graph", kind, tuple(dict.fromkeys((*GRAPH_MASSES, self.mass_kind)))
-            )
-            known = {"degree": self.degrees, "unit": np.ones(self.n)}
-            masses = known.get(kind, self.masses)
+            if kind == self.mass_kind:
+                masses = self.masses
+            else:
+                check_name("mass of a graph", kind, GRAPH_MASSES)
+                masses = self.degrees if kind == "degree" else np.ones(self.n)
             return bounds.largest_edge_eigenvalue(
                 self.edges, self.edge_weight, self.degrees, masses
             )
