@@ -40,6 +40,8 @@ if TYPE_CHECKING:
     from beltrami.operators.areas import vertex_areas as vertex_areas
     from beltrami.operators.gradient import face_divergence as face_divergence
     from beltrami.operators.gradient import face_gradient as face_gradient
+    from beltrami.operators.intrinsic import IntrinsicTriangulation as IntrinsicTriangulation
+    from beltrami.operators.intrinsic import intrinsic_delaunay as intrinsic_delaunay
     from beltrami.operators.laplacian import laplacian as laplacian
     from beltrami.operators.pair import Laplacian as Laplacian
     from beltrami.operators.weights import edge_weights as edge_weights
@@ -52,6 +54,7 @@ _HOME = {
     "DirectionalLight": "display.light",
     "Diagnosis": "mesh.diagnose",
     "Factor": "solvers.factor",
+    "IntrinsicTriangulation": "operators.intrinsic",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
     "Repair": "mesh.repair",
@@ -64,6 +67,7 @@ _HOME = {
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
     "heat": "diffusion.heat",
+    "intrinsic_delaunay": "operators.intrinsic",
     "laplacian": "operators.laplacian",
     "read_function": "io.function",
     "read_mesh": "io.registry",

@@ -20,7 +20,9 @@ from beltrami.operators.areas import (
     vertex_areas,
 )
 from beltrami.operators.domain import Domain
-from beltrami.operators.pair import GRAPH_MASSES, MASSES, Laplacian
+from beltrami.operators.intrinsic import IntrinsicTriangulation, intrinsic_delaunay
+from beltrami.operators.intrinsic_pair import intrinsic_laplacian
+from beltrami.operators.pair import GRAPH_MASSES, INTRINSIC, MASSES, Laplacian
 from beltrami.operators.soundness import refuse_unreferenced
 from beltrami.operators.weights import WEIGHTS, weigh_edges
 
@@ -33,11 +35,13 @@ def laplacian(domain: Source, weights: str | None = None, mass: str | None = Non
     Parameters
     ----------
     domain
-        A Mesh; a Topology (combinatorial weights); a symmetric sparse matrix of weights; or any
-        object that makes its own pair (``make_laplacian``).
+        A Mesh; a Topology (combinatorial weights); a symmetric sparse matrix of weights; an
+        IntrinsicTriangulation; or any object that makes its own pair (``make_laplacian``).
     weights
         ``"cotangent"`` (default on a Mesh), ``"combinatorial"`` (default elsewhere) or
-        ``"distance"``: see ``edge_weights``.
+        ``"distance"``: see ``edge_weights``. ``"intrinsic_delaunay"``: the cotangents, and the
+        areas, of other triangles with the same vertices on the same surface, made by
+        ``intrinsic_delaunay``: on a closed mesh none is negative.
     mass
         ``"voronoi"`` (default for cotangent weights), ``"barycentric"``, ``"consistent"`` (full
         finite elements), ``"degree"`` (default otherwise: B = D) or ``"unit"``. Those of areas
@@ -70,6 +74,9 @@ def laplacian(domain: Source, weights: str | None = None, mass: str | None = Non
     if issparse(domain):
         matrix: Any = domain
         return _of_graph(csr_array(matrix), weights, mass)
+    if isinstance(domain, IntrinsicTriangulation):
+        check_name("weights", weights or INTRINSIC, (INTRINSIC,))
+        return intrinsic_laplacian(domain, mass)
     if isinstance(domain, Domain):
         return domain.make_laplacian(weights, mass)
     if not isinstance(domain, Mesh | Topology):
@@ -78,7 +85,10 @@ def laplacian(domain: Source, weights: str | None = None, mass: str | None = Non
             remedy="Give a Mesh (see as_mesh), a Topology or a symmetric sparse matrix.",
         )
     default = "cotangent" if isinstance(domain, Mesh) else "combinatorial"
-    weight_kind = check_name("weights", default if weights is None else weights, WEIGHTS)
+    known = (*WEIGHTS, INTRINSIC) if isinstance(domain, Mesh) else WEIGHTS
+    weight_kind = check_name("weights", default if weights is None else weights, known)
+    if isinstance(domain, Mesh) and weight_kind == INTRINSIC:
+        return intrinsic_laplacian(intrinsic_delaunay(domain), mass)
     natural = "voronoi" if weight_kind == "cotangent" else "degree"
     mass_kind = check_name("mass", natural if mass is None else mass, MASSES)
     topology = domain.topology if isinstance(domain, Mesh) else domain
