@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from beltrami.display.light import DirectionalLight as DirectionalLight
     from beltrami.display.light import SpotLight as SpotLight
     from beltrami.display.render import render as render
+    from beltrami.geodesics.distance import geodesic_distance as geodesic_distance
+    from beltrami.geodesics.heat_method import HeatMethod as HeatMethod
     from beltrami.io.function import read_function as read_function
     from beltrami.io.registry import read_mesh as read_mesh
     from beltrami.io.registry import write_mesh as write_mesh
@@ -54,6 +56,7 @@ _HOME = {
     "DirectionalLight": "display.light",
     "Diagnosis": "mesh.diagnose",
     "Factor": "solvers.factor",
+    "HeatMethod": "geodesics.heat_method",
     "IntrinsicTriangulation": "operators.intrinsic",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
@@ -66,6 +69,7 @@ _HOME = {
     "face_divergence": "operators.gradient",
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
+    "geodesic_distance": "geodesics.distance",
     "heat": "diffusion.heat",
     "intrinsic_delaunay": "operators.intrinsic",
     "laplacian": "operators.laplacian",

@@ -62,10 +62,14 @@ def carry_windows(
             v = -1 - h
             if key <= distance[v] and key < sent[v]:
                 sent[v] = key
-                send_rays(v, faces, twin, sides, dots, double, starts, around, turning, distance, queue)
+                send_rays(
+                    v, faces, twin, sides, dots, double, starts, around, turning, distance, queue
+                )
         elif not is_useless(h, b0, b1, x, y, sigma, faces, twin, sides, dots, double, distance):
             count += 1
-            carry(h, b0, b1, x, y, sigma, faces, twin, sides, dots, double, turning, distance, queue)
+            carry(
+                h, b0, b1, x, y, sigma, faces, twin, sides, dots, double, turning, distance, queue
+            )
     return count
 
 

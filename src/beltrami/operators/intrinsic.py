@@ -12,6 +12,7 @@ from beltrami.errors import ConvergenceError, NotOrientableError
 from beltrami.mesh.geometry import in_space, well_scaled
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
+from beltrami.operators.cover import BACK, tufted_cover
 from beltrami.operators.flips import flip_to_delaunay, measure_faces
 from beltrami.operators.soundness import refuse_unreferenced, require_sound
 
@@ -34,7 +35,8 @@ class IntrinsicTriangulation:
         The half-edge across each side; negative on the boundary, and where more than two faces
         share an edge.
     side_edges : (m, 3) int32
-        The edge of each side. An edge that was flipped keeps its number in the mesh.
+        The edge of each side. Without a cover, an edge that was flipped keeps its number in the
+        mesh.
     flips : int
         How many flips were made.
     n_vertices : int
@@ -48,6 +50,7 @@ class IntrinsicTriangulation:
     dots: Floats = field(repr=False)  # (m, 3) dot products of the sides at the corners, in unit²
     double_areas: Floats = field(repr=False)  # (m,) in unit²
     unit: float = 1.0  # of length: a power of two, 1 but for extreme coordinates
+    sheets: int = 1  # how often the surface is covered: what faces bring is divided by it
 
     def __repr__(self) -> str:
         return (
@@ -67,12 +70,17 @@ class IntrinsicTriangulation:
         return np.asarray(self.double_areas / 2 * self.unit**2)
 
     @property
+    def area_parts(self) -> Floats:
+        """(m,) areas over the number of sheets: they add to the area of the surface."""
+        return np.asarray(self.face_areas / self.sheets)
+
+    @property
     def half_cotangents(self) -> Floats:
-        """(m, 3) half the cotangent at each corner: the part of the weight of the side opposite."""
-        return np.asarray(self.dots / (2 * self.double_areas[:, None]))
+        """(m, 3) half the cotangents, over the number of sheets: the parts of the weights."""
+        return np.asarray(self.dots / (2 * self.sheets * self.double_areas[:, None]))
 
 
-def intrinsic_delaunay(mesh: Mesh) -> IntrinsicTriangulation:
+def intrinsic_delaunay(mesh: Mesh, *, cover: bool = False) -> IntrinsicTriangulation:
     r"""Flip edges inside the surface until :math:`\cot\alpha + \cot\beta \ge 0` at each.
 
     An edge of two faces is flipped where the angles opposite it add to more than π: the two
@@ -81,21 +89,31 @@ def intrinsic_delaunay(mesh: Mesh) -> IntrinsicTriangulation:
     circles through more than three vertices (Bobenko and Springborn 2007).
 
     Edges of one face stay, also opposite an obtuse angle, where their weight is negative (S6 of
-    the errata); so do edges of more than two faces.
+    the errata); so do edges of more than two faces. With ``cover`` there are none of these: the
+    surface is taken twice, as the front and back of a closed one (see ``tufted_cover``).
+
+    Parameters
+    ----------
+    mesh
+        A sound mesh without unreferenced vertices.
+    cover
+        Whether to triangulate the tufted cover instead of the surface itself.
 
     Raises
     ------
     EmptyMeshError, NonFiniteError, DegenerateFaceError, UnreferencedVertexError
         If the mesh is not sound.
     NotOrientableError
-        If its faces cannot be oriented alike. Faces that merely are not, are turned.
+        Without a cover, if the faces cannot be oriented alike. Faces that merely are not, are
+        turned.
     ConvergenceError
         If it takes more than 1000 flips for each edge: it always stops.
 
     Notes
     -----
-    Cost: O(m) and the flips, of which there are fewer than edges on usual meshes. Sums of cotangents count as
-    negative below -1e-13 (1 + |cot α| + |cot β|), so edges on a common circle are left alone.
+    Cost: O(m) and the flips, of which there are fewer than edges on usual meshes. Sums of
+    cotangents count as negative below -1e-13 (1 + |cot α| + |cot β|), so edges whose four
+    vertices lie on a circle are left alone.
 
     Examples
     --------
@@ -109,13 +127,16 @@ def intrinsic_delaunay(mesh: Mesh) -> IntrinsicTriangulation:
     require_sound(mesh)
     if not mesh.topology.referenced.all():
         refuse_unreferenced(mesh.topology)
-    topology = _oriented(mesh.topology)
+    topology = mesh.topology if cover else _oriented(mesh.topology)
     positions, unit = well_scaled(mesh.vertices)
     dots, double = np.empty((mesh.n_faces, 3)), np.empty(mesh.n_faces)
     measure_faces(*in_space(positions, topology.faces), dots, double)
-    faces, twins = topology.faces.copy(), topology.twins.copy()
-    sides = topology.face_edges.copy()
+    faces, twins, sides = topology.faces.copy(), topology.twins.copy(), topology.face_edges.copy()
     p = topology.n_edges
+    if cover:
+        faces, twins, sides = tufted_cover(topology)
+        dots, double = np.concatenate([dots, dots[:, BACK]]), np.tile(double, 2)
+        p = 3 * mesh.n_faces
     flips = int(flip_to_delaunay(faces, twins, sides, dots, double, p, _MOST * p))
     if flips < 0:
         raise ConvergenceError(
@@ -123,7 +144,8 @@ def intrinsic_delaunay(mesh: Mesh) -> IntrinsicTriangulation:
         )
     tables = (read_only(faces), read_only(twins), read_only(sides))
     numbers = (read_only(dots), read_only(double))
-    return IntrinsicTriangulation(*tables, flips, mesh.n_vertices, *numbers, unit)
+    sheets = 2 if cover else 1
+    return IntrinsicTriangulation(*tables, flips, mesh.n_vertices, *numbers, unit, sheets)
 
 
 def _oriented(topology: Topology) -> Topology:
@@ -135,7 +157,7 @@ def _oriented(topology: Topology) -> Topology:
         raise NotOrientableError(
             "the surface cannot be oriented, and flips of edges need an orientation",
             edges=topology.inconsistent_edges,
-            remedy='Use weights="cotangent", or cut the surface open.',
+            remedy='Use cover=True, which is weights="tufted".',
         )
     faces = np.where(turned[:, None], topology.faces[:, ::-1], topology.faces)
     return Topology(faces, topology.n_vertices)

@@ -15,7 +15,7 @@ from beltrami.operators.areas import diagonal_matrix
 from beltrami.operators.flips import ROUNDING
 from beltrami.operators.intrinsic import IntrinsicTriangulation
 from beltrami.operators.intrinsic_parts import corner_masses
-from beltrami.operators.pair import INTRINSIC, MASSES, Laplacian
+from beltrami.operators.pair import INTRINSIC, MASSES, TUFTED, Laplacian
 
 
 def intrinsic_laplacian(triangles: IntrinsicTriangulation, mass: str | None = None) -> Laplacian:
@@ -34,7 +34,8 @@ def intrinsic_laplacian(triangles: IntrinsicTriangulation, mass: str | None = No
     edges, weights = _merged(*_ends(triangles), _edge_weights(triangles), n)
     stiffness = laplacian_matrix(edges, weights, n)
     masses = _mass_matrix(triangles, stiffness, kind)
-    return Laplacian(stiffness, masses, edges, weights, INTRINSIC, kind, triangles)
+    name = INTRINSIC if triangles.sheets == 1 else TUFTED
+    return Laplacian(stiffness, masses, edges, weights, name, kind, triangles)
 
 
 def _mass_matrix(triangles: IntrinsicTriangulation, stiffness: csr_array, kind: str) -> csr_array:
@@ -52,7 +53,7 @@ def _mass_matrix(triangles: IntrinsicTriangulation, stiffness: csr_array, kind: 
 def _consistent_mass(triangles: IntrinsicTriangulation) -> csr_array:
     """Return ∫ φ_i φ_j; a side from i to itself adds twice its A/12 to the diagonal."""
     n = triangles.n_vertices
-    twelfth = np.repeat(triangles.face_areas / 12, 3)
+    twelfth = np.repeat(triangles.area_parts / 12, 3)
     diagonal = _summed(triangles.faces.ravel(), 2 * twelfth, n)
     start, end = (np.roll(triangles.faces, -k, axis=1).ravel() for k in (1, 2))
     loops = start == end

@@ -39,9 +39,9 @@ def corner_masses(triangles: IntrinsicTriangulation, sides: Floats, mass: str) -
         around = np.bincount(triangles.faces.ravel(), minlength=triangles.n_vertices)
         return np.asarray(1 / around[triangles.faces])
     if mass == "consistent":  # (A/12)⁻¹ L_f has the eigenvalues of the pair, because L_f 1 = 0
-        return np.repeat(triangles.face_areas[:, None] / 12, 3, axis=1)
+        return np.repeat(triangles.area_parts[:, None] / 12, 3, axis=1)
     parts = _shares(triangles.dots, triangles.double_areas, AREA_KINDS[mass])
-    return np.asarray(parts) * triangles.unit**2
+    return np.asarray(parts) * (triangles.unit**2 / triangles.sheets)
 
 
 @kernel

@@ -22,7 +22,7 @@ from beltrami.operators.areas import (
 from beltrami.operators.domain import Domain
 from beltrami.operators.intrinsic import IntrinsicTriangulation, intrinsic_delaunay
 from beltrami.operators.intrinsic_pair import intrinsic_laplacian
-from beltrami.operators.pair import GRAPH_MASSES, INTRINSIC, MASSES, Laplacian
+from beltrami.operators.pair import GRAPH_MASSES, INTRINSIC, MASSES, TUFTED, Laplacian
 from beltrami.operators.soundness import refuse_unreferenced
 from beltrami.operators.weights import WEIGHTS, weigh_edges
 
@@ -41,7 +41,9 @@ def laplacian(domain: Source, weights: str | None = None, mass: str | None = Non
         ``"cotangent"`` (default on a Mesh), ``"combinatorial"`` (default elsewhere) or
         ``"distance"``: see ``edge_weights``. ``"intrinsic_delaunay"``: the cotangents, and the
         areas, of other triangles with the same vertices on the same surface, made by
-        ``intrinsic_delaunay``: on a closed mesh none is negative.
+        ``intrinsic_delaunay``: on a closed mesh none is negative. ``"tufted"``: the same on the
+        surface taken twice, front and back: none is negative on any mesh, also where it is
+        neither a manifold nor orientable, but at the boundary linear functions are not kept.
     mass
         ``"voronoi"`` (default for cotangent weights), ``"barycentric"``, ``"consistent"`` (full
         finite elements), ``"degree"`` (default otherwise: B = D) or ``"unit"``. Those of areas
@@ -75,7 +77,8 @@ def laplacian(domain: Source, weights: str | None = None, mass: str | None = Non
         matrix: Any = domain
         return _of_graph(csr_array(matrix), weights, mass)
     if isinstance(domain, IntrinsicTriangulation):
-        check_name("weights", weights or INTRINSIC, (INTRINSIC,))
+        own = INTRINSIC if domain.sheets == 1 else TUFTED
+        check_name("weights", weights or own, (own,))
         return intrinsic_laplacian(domain, mass)
     if isinstance(domain, Domain):
         return domain.make_laplacian(weights, mass)
@@ -85,10 +88,10 @@ def laplacian(domain: Source, weights: str | None = None, mass: str | None = Non
             remedy="Give a Mesh (see as_mesh), a Topology or a symmetric sparse matrix.",
         )
     default = "cotangent" if isinstance(domain, Mesh) else "combinatorial"
-    known = (*WEIGHTS, INTRINSIC) if isinstance(domain, Mesh) else WEIGHTS
+    known = (*WEIGHTS, INTRINSIC, TUFTED) if isinstance(domain, Mesh) else WEIGHTS
     weight_kind = check_name("weights", default if weights is None else weights, known)
-    if isinstance(domain, Mesh) and weight_kind == INTRINSIC:
-        return intrinsic_laplacian(intrinsic_delaunay(domain), mass)
+    if isinstance(domain, Mesh) and weight_kind in (INTRINSIC, TUFTED):
+        return intrinsic_laplacian(intrinsic_delaunay(domain, cover=weight_kind == TUFTED), mass)
     natural = "voronoi" if weight_kind == "cotangent" else "degree"
     mass_kind = check_name("mass", natural if mass is None else mass, MASSES)
     topology = domain.topology if isinstance(domain, Mesh) else domain

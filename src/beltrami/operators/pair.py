@@ -23,7 +23,8 @@ from beltrami.operators.intrinsic_parts import face_pairs
 GRAPH_MASSES = ("degree", "unit")
 MASSES = ("degree", "barycentric", "voronoi", "consistent", "unit")
 INTRINSIC = "intrinsic_delaunay"
-FROM_ANGLES = ("cotangent", INTRINSIC)  # weights (cot α + cot β)/2: <Lf, f> is an energy
+TUFTED = "tufted"
+FROM_ANGLES = ("cotangent", INTRINSIC, TUFTED)  # weights (cot α + cot β)/2: <Lf, f> is an energy
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,7 +171,7 @@ class Laplacian:
         return LaplacianProperties(
             non_negative_weights=not len(self._negative_edges),
             negative_edges=self._negative_edges,
-            linear_precision=self.weight_kind in FROM_ANGLES,
+            linear_precision=self.weight_kind in ("cotangent", INTRINSIC),
             spectral_bound=self.spectral_bound(),
         )
 
