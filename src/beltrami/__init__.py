@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from beltrami.display.light import DirectionalLight as DirectionalLight
     from beltrami.display.light import SpotLight as SpotLight
     from beltrami.display.render import render as render
+    from beltrami.geodesics.distance import geodesic_distance as geodesic_distance
+    from beltrami.geodesics.heat_method import HeatMethod as HeatMethod
     from beltrami.grids.convolution import convolve as convolve
     from beltrami.grids.grid import Grid as Grid
     from beltrami.grids.transform import dft as dft
@@ -51,6 +53,8 @@ if TYPE_CHECKING:
     from beltrami.operators.gradient import face_divergence as face_divergence
     from beltrami.operators.gradient import face_gradient as face_gradient
     from beltrami.operators.integrals import integrate as integrate
+    from beltrami.operators.intrinsic import IntrinsicTriangulation as IntrinsicTriangulation
+    from beltrami.operators.intrinsic import intrinsic_delaunay as intrinsic_delaunay
     from beltrami.operators.laplacian import laplacian as laplacian
     from beltrami.operators.locality import is_local as is_local
     from beltrami.operators.neighbours import knn_graph as knn_graph
@@ -69,6 +73,8 @@ _HOME = {
     "DirectionalLight": "display.light",
     "Factor": "solvers.factor",
     "Grid": "grids.grid",
+    "HeatMethod": "geodesics.heat_method",
+    "IntrinsicTriangulation": "operators.intrinsic",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
     "PointCloud": "operators.point_cloud",
@@ -88,9 +94,11 @@ _HOME = {
     "face_divergence": "operators.gradient",
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
+    "geodesic_distance": "geodesics.distance",
     "heat": "diffusion.heat",
     "idft": "grids.transform",
     "integrate": "operators.integrals",
+    "intrinsic_delaunay": "operators.intrinsic",
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",

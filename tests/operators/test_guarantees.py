@@ -12,7 +12,9 @@ from beltrami.operators.laplacian import laplacian
 from beltrami.operators.weights import SYMMETRIC_WEIGHTS, edge_weights, weigh_edges
 from meshes_of_the_errata import MESHES, flipped, triangle
 
-CASES = [(name, kind) for name in MESHES for kind in SYMMETRIC_WEIGHTS]
+INTRINSIC_WEIGHTS = ("intrinsic_delaunay", "tufted")
+KINDS = (*SYMMETRIC_WEIGHTS, *INTRINSIC_WEIGHTS)
+CASES = [(name, kind) for name in MESHES for kind in KINDS]
 
 
 @pytest.mark.chapter("T7", "T9", "P34", "R1")

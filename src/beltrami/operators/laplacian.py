@@ -20,9 +20,10 @@ from beltrami.operators.areas import (
     vertex_areas,
 )
 from beltrami.operators.domain import Domain
-from beltrami.operators.pair import GRAPH_MASSES, MASSES, Laplacian
+from beltrami.operators.intrinsic import IntrinsicTriangulation, intrinsic_delaunay
+from beltrami.operators.intrinsic_pair import intrinsic_laplacian
+from beltrami.operators.pair import GRAPH_MASSES, INTRINSIC, MASSES, TUFTED, Laplacian
 from beltrami.operators.soundness import refuse_unreferenced
-from beltrami.operators.tufted import tufted_laplacian
 from beltrami.operators.weights import SYMMETRIC_WEIGHTS, Weigher, weigh_edges
 
 Source: TypeAlias = "Mesh | Topology | Domain | Any"  # Any: a symmetric sparse matrix of weights
@@ -36,13 +37,17 @@ def laplacian(
     Parameters
     ----------
     domain
-        A Mesh; a Topology (combinatorial weights); a Grid, or another object that makes its own
-        pair (``make_laplacian``, which names its weights); or a symmetric sparse matrix of weights.
+        A Mesh; a Topology (combinatorial weights); a Grid, an IntrinsicTriangulation, or another
+        object that makes its own pair (``make_laplacian``, which names its weights); or a
+        symmetric sparse matrix of weights.
     weights
-        ``"cotangent"`` (default on a Mesh), ``"combinatorial"`` (default elsewhere) or
-        ``"distance"``, ``"clamped"``, or a callable: see ``edge_weights``. ``"tufted"``: never
-        negative, for what is no manifold or has flat faces; it wants the extra ``robust``, and
-        brings its own areas (mass ``"barycentric"``, ``"degree"`` or ``"unit"``).
+        ``"cotangent"`` (default on a Mesh), ``"combinatorial"`` (default elsewhere),
+        ``"distance"``, ``"clamped"``, or a callable: see ``edge_weights``.
+        ``"intrinsic_delaunay"``: the cotangents, and the areas, of other triangles with the same
+        vertices on the same surface, made by ``intrinsic_delaunay``: on a closed mesh none is
+        negative. ``"tufted"``: the same on the surface taken twice, front and back: none is
+        negative on any mesh, also where it is neither a manifold nor orientable, but at the
+        boundary linear functions are not kept.
     mass
         ``"voronoi"`` (default for cotangents, clamped ones too), ``"barycentric"``,
         ``"consistent"`` (full finite elements), ``"degree"`` (default otherwise: B = D) or
@@ -59,8 +64,6 @@ def laplacian(
         symmetric and finite, or has a diagonal.
     NegativeWeightError
         If a callable returns negative weights.
-    MissingExtraError
-        If tufted weights are asked for and robust_laplacian is not installed.
 
     Notes
     -----
@@ -83,6 +86,10 @@ def laplacian(
     if issparse(domain):
         matrix: Any = domain
         return _of_graph(csr_array(matrix), name, mass)
+    if isinstance(domain, IntrinsicTriangulation):
+        own = INTRINSIC if domain.sheets == 1 else TUFTED
+        check_name("weights", name or own, (own,))
+        return intrinsic_laplacian(domain, mass)
     if isinstance(domain, Domain):
         return domain.make_laplacian(name, mass)
     if not isinstance(domain, Mesh | Topology):
@@ -93,8 +100,9 @@ def laplacian(
     default = "cotangent" if isinstance(domain, Mesh) else "combinatorial"
     rule = default if weights is None else weights
     weight_kind = "given" if callable(rule) else _checked_kind(rule)
-    if weight_kind == "tufted":
-        return tufted_laplacian(domain, mass)
+    if weight_kind in (INTRINSIC, TUFTED):
+        cover = weight_kind == TUFTED
+        return intrinsic_laplacian(intrinsic_delaunay(_require_mesh(domain), cover=cover), mass)
     natural = "voronoi" if weight_kind in ("cotangent", "clamped") else "degree"
     mass_kind = check_name("mass", natural if mass is None else mass, MASSES)
     topology = domain.topology if isinstance(domain, Mesh) else domain
@@ -115,7 +123,13 @@ def _checked_kind(name: str) -> str:
             remedy='Use "clamped" weights, which are positive too, or edge_weights(mesh, '
             '"mean_value") for a map.',
         )
-    return check_name("weights", name, (*SYMMETRIC_WEIGHTS, "tufted"))
+    return check_name("weights", name, (*SYMMETRIC_WEIGHTS, INTRINSIC, TUFTED))
+
+
+def _require_mesh(domain: Mesh | Topology) -> Mesh:
+    if not isinstance(domain, Mesh):
+        raise DimensionError("intrinsic triangles need the positions of the vertices: give a Mesh")
+    return domain
 
 
 def _weights_and_areas(

@@ -23,9 +23,13 @@ from beltrami.operators.guarantees import (
     LaplacianProperties,
     properties_of,
 )
+from beltrami.operators.intrinsic import IntrinsicTriangulation
+from beltrami.operators.intrinsic_parts import face_pairs
 
 GRAPH_MASSES = ("degree", "unit")
 MASSES = ("degree", "barycentric", "voronoi", "consistent", "unit")
+INTRINSIC = "intrinsic_delaunay"
+TUFTED = "tufted"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -52,12 +56,12 @@ class Laplacian:
     edge_weight: Floats
     weight_kind: str
     mass_kind: str
-    domain: Mesh | Topology | None = field(default=None)
+    domain: Mesh | Topology | IntrinsicTriangulation | None = field(default=None)
 
     def __repr__(self) -> str:
         certain = self._of_a_surface or not len(self._negative_edges)
         definite = ", positive semi-definite" if certain else ", of either sign"
-        half = ", (cot α + cot β)/2" if self.weight_kind == "cotangent" else ""
+        half = ", (cot α + cot β)/2" if self._of_a_surface else ""
         return (
             f"<Laplacian: {self.n} vertices, {self.weight_kind} weights{half}, "
             f"{self.mass_kind} mass{definite}>"
@@ -173,6 +177,8 @@ class Laplacian:
             return bounds.largest_edge_eigenvalue(
                 self.edges, self.edge_weight, self.degrees, masses
             )
+        if isinstance(self.domain, IntrinsicTriangulation):
+            return bounds.largest_face_eigenvalue(*face_pairs(self.domain, kind))
         sides = bounds.side_weights(self.domain, self.edge_weight, self.weight_kind)
         return bounds.largest_face_eigenvalue(sides, bounds.corner_masses(self.domain, sides, kind))
 

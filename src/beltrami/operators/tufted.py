@@ -1,4 +1,4 @@
-"""Tufted Laplacians, of what is no manifold and of points, through robust_laplacian."""
+"""Tufted Laplacians of points, through robust_laplacian."""
 
 from __future__ import annotations
 
@@ -11,34 +11,10 @@ from beltrami._arrays import Floats, read_only
 from beltrami._optional import require
 from beltrami.errors import BeltramiError, DimensionError, MeshError, check_name
 from beltrami.mesh.edge_matrix import laplacian_matrix
-from beltrami.mesh.mesh import Mesh
-from beltrami.mesh.topology import Topology
 from beltrami.operators.areas import diagonal_matrix
 from beltrami.operators.pair import Laplacian
-from beltrami.operators.soundness import refuse_unreferenced, require_faces, require_positions
 
 TUFTED_MASSES = ("barycentric", "degree", "unit")
-
-
-def tufted_laplacian(mesh: Mesh | Topology, mass: str | None) -> Laplacian:
-    """Make the pair of the intrinsic Delaunay triangles of the tufted cover of a mesh.
-
-    N. Sharp and K. Crane, A Laplacian for nonmanifold triangle meshes, 2020. Each face is taken
-    twice, front and back, and glued so that every edge has two of them; edges are flipped until
-    no weight is negative, also at the boundary. Flat faces are thickened by 1e-5 of the mean
-    length of the edges. On a closed Delaunay mesh it is the cotangent Laplacian.
-    """
-    kind = _checked_mass(mass)
-    if not isinstance(mesh, Mesh):
-        raise DimensionError("tufted weights need the positions of the vertices: give a Mesh")
-    require_faces(mesh.topology)
-    require_positions(mesh)
-    if not mesh.topology.referenced.all():
-        refuse_unreferenced(mesh.topology)
-    robust = _robust_laplacian()
-    positions = _in_space(mesh.vertices)
-    faces = np.array(mesh.faces)
-    return _pair(lambda: robust.mesh_laplacian(positions, faces), mesh.n_vertices, kind)
 
 
 def cloud_laplacian(points: Floats, n_neighbors: int, mass: str | None) -> Laplacian:
