@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from scipy.spatial import Voronoi
 
 import dense_oracles as oracle
 from beltrami.operators.areas import vertex_areas
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.weights import weigh_edges
 from meshes_of_the_errata import MESHES
+from voronoi_oracle import clipped_cells
 
 
 def _printed(mesh):
@@ -26,25 +26,9 @@ def test_the_sum_of_the_printed_areas_is_twice_the_area(name):
     assert np.allclose(vertex_areas(mesh, "circumcentric"), _printed(mesh) / 2, atol=1e-10)
 
 
-def _clipped_cells(points):
-    """Areas of the Voronoi cells that lie inside the unit square, and their numbers."""
-    diagram = Voronoi(points)
-    areas = {}
-    for i, region in enumerate(diagram.point_region):
-        corners = diagram.regions[region]
-        if -1 in corners:
-            continue
-        x = diagram.vertices[corners]
-        if ((x > 0) & (x < 1)).all():
-            angle = np.argsort(np.arctan2(*(x - x.mean(axis=0)).T))
-            x, y = x[angle].T
-            areas[i] = abs(x @ np.roll(y, 1) - y @ np.roll(x, 1)) / 2
-    return np.array(list(areas)), np.array(list(areas.values()))
-
-
 def test_single_cells_of_a_planar_delaunay_mesh_against_geometry():
     mesh = MESHES["open"]()
-    cells, exact = _clipped_cells(mesh.vertices)
+    cells, exact = clipped_cells(mesh.vertices)
     assert len(cells) > 100
     assert np.allclose(vertex_areas(mesh, "circumcentric")[cells], exact, rtol=1e-9)
     assert np.allclose(_printed(mesh)[cells], 2 * exact, rtol=1e-9)
@@ -54,7 +38,7 @@ def test_single_cells_of_a_planar_delaunay_mesh_against_geometry():
 
 def test_of_a_mesh_that_is_not_delaunay_only_the_total_is_right():
     mesh = MESHES["bad"]()
-    cells, exact = _clipped_cells(mesh.vertices)
+    cells, exact = clipped_cells(mesh.vertices)
     ratio = vertex_areas(mesh, "circumcentric")[cells] / exact
     assert ratio.min() < 0
     assert ratio.max() > 2
