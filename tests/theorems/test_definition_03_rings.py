@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import shortest_path
 
 from meshes_of_the_errata import MESHES
 
@@ -10,16 +12,8 @@ NAMES = ("closed", "obt", "open", "bad", "leaves")
 
 
 def _distances(topology):
-    """(n, n) numbers of edges between the vertices, by powers of Id + A."""
-    n = topology.n_vertices
-    near = np.eye(n, dtype=int) + topology.adjacency.toarray().astype(int)
-    reached, out = np.eye(n, dtype=bool), np.full((n, n), -1)
-    for step in range(n):
-        out[(out < 0) & reached] = step
-        if (out >= 0).all():
-            return out
-        reached = reached.astype(int) @ near > 0
-    return out
+    """(n, n) numbers of edges between the vertices, by scipy."""
+    return shortest_path(csr_matrix(topology.adjacency), unweighted=True)
 
 
 def _printed(topology, i, s):

@@ -8,6 +8,8 @@ from beltrami.diffusion.heat import heat
 from beltrami.operators.laplacian import laplacian
 from meshes_of_the_errata import IRREGULAR, MESHES
 
+pytestmark = pytest.mark.chapter("Q3.7")
+
 
 @pytest.mark.parametrize("name", IRREGULAR)
 @pytest.mark.parametrize("weights", ["combinatorial", "cotangent"])

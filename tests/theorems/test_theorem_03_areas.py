@@ -17,6 +17,7 @@ def _printed(mesh):
     return np.bincount(mesh.edges.ravel(), np.repeat(cells, 2), mesh.n_vertices) / 2
 
 
+@pytest.mark.chapter("D10", "T3")
 @pytest.mark.parametrize("name", MESHES)
 def test_the_sum_of_the_printed_areas_is_twice_the_area(name):
     mesh = MESHES[name]()
@@ -26,6 +27,7 @@ def test_the_sum_of_the_printed_areas_is_twice_the_area(name):
     assert np.allclose(vertex_areas(mesh, "circumcentric"), _printed(mesh) / 2, atol=1e-10)
 
 
+@pytest.mark.chapter("D10", "T3")
 def test_single_cells_of_a_planar_delaunay_mesh_against_geometry():
     mesh = MESHES["open"]()
     cells, exact = clipped_cells(mesh.vertices)
@@ -36,6 +38,7 @@ def test_single_cells_of_a_planar_delaunay_mesh_against_geometry():
     assert mixed.max() > 0.05  # cut at obtuse angles: positive, and no longer the exact cells
 
 
+@pytest.mark.chapter("D10", "T3")
 def test_of_a_mesh_that_is_not_delaunay_only_the_total_is_right():
     mesh = MESHES["bad"]()
     cells, exact = clipped_cells(mesh.vertices)
@@ -44,6 +47,7 @@ def test_of_a_mesh_that_is_not_delaunay_only_the_total_is_right():
     assert ratio.max() > 2
 
 
+@pytest.mark.chapter("D10")
 @pytest.mark.parametrize("name", ["obt", "bad"])
 def test_signed_areas_may_be_negative_and_the_default_is_not(name):
     mesh = MESHES[name]()
@@ -52,6 +56,7 @@ def test_signed_areas_may_be_negative_and_the_default_is_not(name):
     assert laplacian(mesh).masses.min() > 0
 
 
+@pytest.mark.chapter("U14")
 def test_what_integrates_linear_functions_exactly():
     mesh = MESHES["open"]()
     x = mesh.vertices[:, 0]
@@ -61,6 +66,7 @@ def test_what_integrates_linear_functions_exactly():
     assert _printed(mesh) @ x == pytest.approx(1.0, abs=0.01)
 
 
+@pytest.mark.chapter("U14")
 def test_quadrature_of_a_smooth_function():
     mesh = MESHES["open"]()
     x, y = mesh.vertices.T
@@ -70,6 +76,7 @@ def test_quadrature_of_a_smooth_function():
     assert _printed(mesh) @ f == pytest.approx(2 * exact, rel=3e-3)
 
 
+@pytest.mark.chapter("T3", "P35")
 def test_a_mesh_inscribed_in_the_sphere():
     """<L x_i, x_i> = 2 A_i with the signed areas: exact, cell by cell (E30)."""
     mesh = MESHES["closed"]()

@@ -7,6 +7,8 @@ from beltrami.operators.laplacian import laplacian
 from beltrami.operators.weights import WEIGHTS
 from meshes_of_the_errata import IRREGULAR, MESHES
 
+pytestmark = pytest.mark.chapter("T6")
+
 POSITIVE = [(name, kind) for name in IRREGULAR for kind in ("combinatorial", "distance")]
 
 
@@ -36,6 +38,7 @@ def test_a_complex_root_does_not_help(name):
     assert np.abs(G.conj().T @ G - L).max() > 1
 
 
+@pytest.mark.chapter("U19")
 @pytest.mark.parametrize("name", IRREGULAR)
 def test_three_expressions_of_the_energy(name):
     """<Lf, f> = |Gf|² = Σ over the edges once; over both orders it is twice that (E28)."""

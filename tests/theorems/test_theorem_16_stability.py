@@ -12,6 +12,8 @@ from beltrami.errors import StepTooLongError
 from beltrami.operators.laplacian import laplacian
 from meshes_of_the_errata import MESHES
 
+pytestmark = pytest.mark.chapter("T16")
+
 COTANGENT = [("closed", False), ("obt", True), ("bad", True)]
 
 
@@ -20,6 +22,7 @@ def _explicit(pair, delta):
     return np.eye(pair.n) - delta * np.linalg.solve(B, L)
 
 
+@pytest.mark.chapter("R3")
 @pytest.mark.parametrize(("name", "negative"), COTANGENT)
 def test_the_limit_is_two_over_the_largest_eigenvalue(name, negative):
     mesh = MESHES[name]()
@@ -40,6 +43,7 @@ def test_the_limit_is_two_over_the_largest_eigenvalue(name, negative):
     assert np.abs(calm).max() <= np.abs(f).max()
 
 
+@pytest.mark.chapter("R3")
 def test_the_printed_limit_is_neither_sufficient_nor_necessary():
     bad = laplacian(MESHES["bad"](), mass="degree")
     f = oracle.rough_functions(MESHES["bad"](), 1)[:, 0]
@@ -82,6 +86,7 @@ def _even_cycle():
     return csr_array(A)
 
 
+@pytest.mark.chapter("P40")
 def test_a_bipartite_graph_converges_as_well():
     """Printed: the explicit scheme needs a graph that is not two-colourable (E75)."""
     pair = laplacian(_even_cycle())
@@ -100,6 +105,7 @@ def _minus_flow(pair):
     return np.linalg.solve(pair.mass.toarray(), pair.stiffness.toarray())
 
 
+@pytest.mark.chapter("R4", "U31")
 def test_explicit_heat_with_the_degree_mass_is_averaging_with_that_step():
     mesh = MESHES["bad"]()
     pair = laplacian(mesh, "distance", "degree")
