@@ -91,3 +91,18 @@ def test_masses_against_loops_on_the_obtuse_mesh():
     mesh = MESHES["obt"]()
     expected = np.diag(oracle.masses(mesh, "voronoi", np.zeros((mesh.n_vertices,) * 2)))
     assert np.allclose(vertex_areas(mesh), expected, rtol=1e-8)
+
+
+@pytest.mark.chapter("D10", "T3")
+@pytest.mark.parametrize("unit", [1e-3, 1e-60, 1e60])
+@pytest.mark.parametrize("name", ["obt", "bad"])
+def test_areas_have_the_square_of_the_unit_and_the_energy_has_none(name, unit):
+    mesh = MESHES[name]()
+    other = mesh.with_vertices(unit * mesh.vertices)
+    for kind in ("barycentric", "voronoi", "circumcentric"):
+        areas = vertex_areas(mesh, kind)
+        assert np.allclose(vertex_areas(other, kind) / unit / unit, areas, rtol=1e-9, atol=1e-14)
+    f = mesh.vertices[:, 0]
+    assert laplacian(other).dirichlet_energy(f) == pytest.approx(
+        laplacian(mesh).dirichlet_energy(f)
+    )

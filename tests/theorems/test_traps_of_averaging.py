@@ -180,3 +180,38 @@ def test_smoothing_a_mesh_keeps_the_mean_of_its_mass(name):
     assert np.abs(pair.mean(after) - pair.mean(mesh.vertices)).max() > 1e-5
     if mesh.is_closed:
         assert smooth_mesh(mesh, steps=9).volume < mesh.volume
+
+
+@pytest.mark.chapter("X6")
+@pytest.mark.parametrize("keep", ["volume", "centroid"])
+@pytest.mark.parametrize("name", ["closed", "obt"])
+def test_what_smoothing_takes_can_be_given_back(name, keep):
+    """A scale about the centroid, far from the origin: the cube root of the ratio of volumes."""
+    mesh = MESHES[name]()
+    mesh = mesh.with_vertices(mesh.vertices + np.array([5, -7, 11]))
+    plain = smooth_mesh(mesh, steps=6)
+    kept = smooth_mesh(mesh, steps=6, keep=keep)
+    scale = np.cbrt(mesh.volume / plain.volume) if keep == "volume" else 1.0
+    assert np.allclose(_surface_mean(kept), _surface_mean(mesh), atol=1e-11)
+    expected = (plain.vertices - _surface_mean(plain)) * scale + _surface_mean(mesh)
+    assert np.allclose(kept.vertices, expected, atol=1e-11)
+    assert plain.volume < 0.99 * mesh.volume
+    assert (kept.volume == pytest.approx(mesh.volume)) == (keep == "volume")
+
+
+def _surface_mean(mesh):
+    areas = oracle.double_areas(mesh)
+    return areas @ mesh.vertices[mesh.faces].mean(axis=1) / areas.sum()
+
+
+@pytest.mark.chapter("P19", "R4")
+@pytest.mark.parametrize("columns", [1, 3, 4])
+@pytest.mark.parametrize("kind", POSITIVE)
+@pytest.mark.parametrize("mass", ["voronoi", "unit", "degree"])
+def test_averaging_uses_the_degrees_whatever_the_mass(mass, kind, columns):
+    mesh = MESHES["bad"]()
+    W = oracle.weights(mesh, kind)
+    step = 0.7 * W / W.sum(axis=1)[:, None] + 0.3 * np.eye(len(W))
+    f = oracle.rough_functions(mesh, columns)
+    after = smooth(laplacian(mesh, kind, mass), f, 3, 0.7)
+    assert np.allclose(after, np.linalg.matrix_power(step, 3) @ f, atol=1e-12)
