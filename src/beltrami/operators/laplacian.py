@@ -30,6 +30,8 @@ Source: TypeAlias = "Mesh | Topology | Domain | Any"  # Any: a symmetric sparse 
 def laplacian(domain: Source, weights: str | None = None, mass: str | None = None) -> Laplacian:
     r"""Make the pair (L, B) of a mesh, of a topology, or of a graph.
 
+    Chapter items: D14, X3, P7, P16, P17, P21, P35.
+
     Parameters
     ----------
     domain

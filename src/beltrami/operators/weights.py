@@ -29,6 +29,8 @@ def edge_weights(domain: Mesh | Topology, kind: str) -> csr_array:
     f\rangle` is the Dirichlet energy (E29). Where they add to more than π the weight is negative,
     and stays so.
 
+    Chapter items: Q3.3, X3, P16.
+
     Returns
     -------
     (n, n) csr_array
