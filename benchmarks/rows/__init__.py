@@ -5,12 +5,17 @@ from __future__ import annotations
 from benchmarks.claims import Row
 from benchmarks.rows.adjacency import ADJACENCY
 from benchmarks.rows.assembly import ASSEMBLY
+from benchmarks.rows.geodesics import GEODESICS, GEODESICS_PREPARED
+from benchmarks.rows.intrinsic import INTRINSIC
 from benchmarks.rows.reading import READ_OBJ, READ_OFF, READ_PLY
 from benchmarks.rows.smoothing import SMOOTHING
 from benchmarks.rows.starting import FIRST_CALL, IMPORT
 
 ROWS: tuple[Row, ...] = (
     ASSEMBLY,
+    INTRINSIC,
+    GEODESICS,
+    GEODESICS_PREPARED,
     SMOOTHING,
     ADJACENCY,
     READ_OBJ,

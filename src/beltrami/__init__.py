@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from beltrami.display.light import DirectionalLight as DirectionalLight
     from beltrami.display.light import SpotLight as SpotLight
     from beltrami.display.render import render as render
+    from beltrami.geodesics.distance import geodesic_distance as geodesic_distance
+    from beltrami.geodesics.heat_method import HeatMethod as HeatMethod
     from beltrami.grids.convolution import convolve as convolve
     from beltrami.grids.grid import Grid as Grid
     from beltrami.grids.transform import dft as dft
@@ -44,6 +46,8 @@ if TYPE_CHECKING:
     from beltrami.operators.areas import vertex_areas as vertex_areas
     from beltrami.operators.gradient import face_divergence as face_divergence
     from beltrami.operators.gradient import face_gradient as face_gradient
+    from beltrami.operators.intrinsic import IntrinsicTriangulation as IntrinsicTriangulation
+    from beltrami.operators.intrinsic import intrinsic_delaunay as intrinsic_delaunay
     from beltrami.operators.laplacian import laplacian as laplacian
     from beltrami.operators.pair import Laplacian as Laplacian
     from beltrami.operators.weights import edge_weights as edge_weights
@@ -57,6 +61,8 @@ _HOME = {
     "Diagnosis": "mesh.diagnose",
     "Factor": "solvers.factor",
     "Grid": "grids.grid",
+    "HeatMethod": "geodesics.heat_method",
+    "IntrinsicTriangulation": "operators.intrinsic",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
     "Repair": "mesh.repair",
@@ -70,8 +76,10 @@ _HOME = {
     "face_divergence": "operators.gradient",
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
+    "geodesic_distance": "geodesics.distance",
     "heat": "diffusion.heat",
     "idft": "grids.transform",
+    "intrinsic_delaunay": "operators.intrinsic",
     "laplacian": "operators.laplacian",
     "read_function": "io.function",
     "read_mesh": "io.registry",

@@ -1,1 +1,1 @@
-"""Distances along the surface."""
+"""Distances along the surface: the heat method, exact polyhedral ones, and paths of edges."""

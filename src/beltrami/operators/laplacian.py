@@ -20,7 +20,9 @@ from beltrami.operators.areas import (
     vertex_areas,
 )
 from beltrami.operators.domain import Domain
-from beltrami.operators.pair import GRAPH_MASSES, MASSES, Laplacian
+from beltrami.operators.intrinsic import IntrinsicTriangulation, intrinsic_delaunay
+from beltrami.operators.intrinsic_pair import intrinsic_laplacian
+from beltrami.operators.pair import GRAPH_MASSES, INTRINSIC, MASSES, TUFTED, Laplacian
 from beltrami.operators.soundness import refuse_unreferenced
 from beltrami.operators.weights import WEIGHTS, weigh_edges
 
@@ -35,11 +37,16 @@ def laplacian(domain: Source, weights: str | None = None, mass: str | None = Non
     Parameters
     ----------
     domain
-        A Mesh; a Topology (combinatorial weights); a Grid, or another object that makes its own
-        pair (``make_laplacian``, which names its weights); or a symmetric sparse matrix of weights.
+        A Mesh; a Topology (combinatorial weights); a symmetric sparse matrix of weights; an
+        IntrinsicTriangulation; a Grid, or another object that makes its own pair
+        (``make_laplacian``, which names its weights).
     weights
         ``"cotangent"`` (default on a Mesh), ``"combinatorial"`` (default elsewhere) or
-        ``"distance"``: see ``edge_weights``.
+        ``"distance"``: see ``edge_weights``. ``"intrinsic_delaunay"``: the cotangents, and the
+        areas, of other triangles with the same vertices on the same surface, made by
+        ``intrinsic_delaunay``: on a closed mesh none is negative. ``"tufted"``: the same on the
+        surface taken twice, front and back: none is negative on any mesh, also where it is
+        neither a manifold nor orientable, but at the boundary linear functions are not kept.
     mass
         ``"voronoi"`` (default for cotangent weights), ``"barycentric"``, ``"consistent"`` (full
         finite elements), ``"degree"`` (default otherwise: B = D) or ``"unit"``. Those of areas
@@ -72,6 +79,10 @@ def laplacian(domain: Source, weights: str | None = None, mass: str | None = Non
     if issparse(domain):
         matrix: Any = domain
         return _of_graph(csr_array(matrix), weights, mass)
+    if isinstance(domain, IntrinsicTriangulation):
+        own = INTRINSIC if domain.sheets == 1 else TUFTED
+        check_name("weights", weights or own, (own,))
+        return intrinsic_laplacian(domain, mass)
     if isinstance(domain, Domain):
         return domain.make_laplacian(weights, mass)
     if not isinstance(domain, Mesh | Topology):
@@ -80,7 +91,10 @@ def laplacian(domain: Source, weights: str | None = None, mass: str | None = Non
             remedy="Give a Mesh (see as_mesh), a Topology or a symmetric sparse matrix.",
         )
     default = "cotangent" if isinstance(domain, Mesh) else "combinatorial"
-    weight_kind = check_name("weights", default if weights is None else weights, WEIGHTS)
+    known = (*WEIGHTS, INTRINSIC, TUFTED) if isinstance(domain, Mesh) else WEIGHTS
+    weight_kind = check_name("weights", default if weights is None else weights, known)
+    if isinstance(domain, Mesh) and weight_kind in (INTRINSIC, TUFTED):
+        return intrinsic_laplacian(intrinsic_delaunay(domain, cover=weight_kind == TUFTED), mass)
     natural = "voronoi" if weight_kind == "cotangent" else "degree"
     mass_kind = check_name("mass", natural if mass is None else mass, MASSES)
     topology = domain.topology if isinstance(domain, Mesh) else domain

@@ -17,9 +17,14 @@ from beltrami.mesh.topology import Topology
 from beltrami.operators import bounds
 from beltrami.operators.areas import diagonal_matrix
 from beltrami.operators.gradient import edge_gradient, incidence_matrix
+from beltrami.operators.intrinsic import IntrinsicTriangulation
+from beltrami.operators.intrinsic_parts import face_pairs
 
 GRAPH_MASSES = ("degree", "unit")
 MASSES = ("degree", "barycentric", "voronoi", "consistent", "unit")
+INTRINSIC = "intrinsic_delaunay"
+TUFTED = "tufted"
+FROM_ANGLES = ("cotangent", INTRINSIC, TUFTED)  # weights (cot α + cot β)/2: <Lf, f> is an energy
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +39,7 @@ class LaplacianProperties:
     negative_edges
         (q, 2) int: the edges with a negative weight.
     linear_precision
-        Whether L x = 0 inside a planar mesh: cotangent weights only.
+        Whether L x = 0 inside a planar mesh: cotangent weights only, intrinsic ones too.
     spectral_bound
         An upper bound on the eigenvalues of the pair (L, B).
     """
@@ -71,12 +76,12 @@ class Laplacian:
     edge_weight: Floats
     weight_kind: str
     mass_kind: str
-    domain: Mesh | Topology | None = field(default=None)
+    domain: Mesh | Topology | IntrinsicTriangulation | None = field(default=None)
 
     def __repr__(self) -> str:
-        certain = self.weight_kind == "cotangent" or not len(self._negative_edges)
+        certain = self.weight_kind in FROM_ANGLES or not len(self._negative_edges)
         definite = ", positive semi-definite" if certain else ", of either sign"
-        half = ", (cot α + cot β)/2" if self.weight_kind == "cotangent" else ""
+        half = ", (cot α + cot β)/2" if self.weight_kind in FROM_ANGLES else ""
         return (
             f"<Laplacian: {self.n} vertices, {self.weight_kind} weights{half}, "
             f"{self.mass_kind} mass{definite}>"
@@ -191,7 +196,7 @@ class Laplacian:
         return LaplacianProperties(
             non_negative_weights=not len(self._negative_edges),
             negative_edges=self._negative_edges,
-            linear_precision=self.weight_kind == "cotangent",
+            linear_precision=self.weight_kind in ("cotangent", INTRINSIC),
             spectral_bound=self.spectral_bound(),
         )
 
@@ -215,6 +220,8 @@ class Laplacian:
             return bounds.largest_edge_eigenvalue(
                 self.edges, self.edge_weight, self.degrees, masses
             )
+        if isinstance(self.domain, IntrinsicTriangulation):
+            return bounds.largest_face_eigenvalue(*face_pairs(self.domain, kind))
         sides = bounds.side_weights(self.domain, self.edge_weight, self.weight_kind)
         return bounds.largest_face_eigenvalue(sides, bounds.corner_masses(self.domain, sides, kind))
 
@@ -236,7 +243,7 @@ class Laplacian:
     @property
     def _rounding(self) -> float:
         """What a weight may be off: the cotangents of right angles come out as ±1e-16."""
-        return 1e-12 if self.weight_kind == "cotangent" else 0.0
+        return 1e-12 if self.weight_kind in FROM_ANGLES else 0.0
 
     def _require_degrees(self) -> None:
         alone = np.flatnonzero(self.degrees <= 0)
