@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 
-.PHONY: tour test test-heavy test-browser lint bench clean
+.PHONY: tour test test-heavy test-browser docs-map lint bench clean
 
 $(VENV)/.installed: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -29,6 +29,9 @@ test-heavy: $(VENV)/.installed  ## fuzzing at length, millions of vertices
 
 test-browser: $(VENV)/.installed  ## the tour's index page in a real Chromium
 	$(BIN)/python -m pytest -m browser
+
+docs-map:  ## docs/chapter-map.md, from the markers in the code and in the tests
+	$(PYTHON) docs/chapter_map.py
 
 bench:  ## against the peers, in an environment of their own; writes BENCHMARKS.md
 	$(PYTHON) -m venv .venv-bench

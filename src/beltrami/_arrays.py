@@ -71,6 +71,8 @@ def rectangular(array: ArrayLike) -> NDArray[Any]:
 def as_function(f: ArrayLike, n: int, what: str = "the function") -> Floats:
     """Check a function on n vertices: shape (n,) or (n, c), every value finite.
 
+    Chapter items: D5.
+
     Raises
     ------
     DimensionError

@@ -8,6 +8,8 @@ from scipy.sparse.linalg import eigsh
 from beltrami.mesh.shapes import icosphere
 from beltrami.operators.laplacian import laplacian
 
+pytestmark = pytest.mark.chapter("P35")
+
 EXACT = np.array([0, 2, 2, 2, 6, 6, 6, 6, 6])
 
 

@@ -25,6 +25,7 @@ def _slope(errors):
     return np.polyfit(np.log(sizes), np.log(np.abs(errors)), 1)[0]
 
 
+@pytest.mark.chapter("Q3.5", "P21")
 def test_dirichlet_energy_on_the_square():
     cc, ss = (1 / 2 + np.sin(6) / 12), (1 / 2 - np.sin(6) / 12)  # ∫cos² 3x, ∫sin² 3x
     c2, s2 = (1 / 2 + np.sin(4) / 8), (1 / 2 - np.sin(4) / 8)
@@ -39,6 +40,7 @@ def test_dirichlet_energy_on_the_square():
     assert max(errors) < 0  # the interpolant has less
 
 
+@pytest.mark.chapter("Q3.5", "P21", "P23")
 def test_dirichlet_energy_on_the_sphere():
     errors = []
     for s in (2, 3, 4):
@@ -47,6 +49,7 @@ def test_dirichlet_energy_on_the_sphere():
     assert _slope(errors) == pytest.approx(2, abs=0.1)
 
 
+@pytest.mark.chapter("U14")
 @pytest.mark.parametrize("kind", ["barycentric", "circumcentric"])
 def test_integrals_on_the_square(kind):
     exact = (np.e - 1) * np.sin(1)

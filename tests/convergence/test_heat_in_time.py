@@ -9,9 +9,12 @@ from beltrami.diffusion.heat import heat
 from beltrami.operators.laplacian import laplacian
 from meshes_of_the_errata import MESHES
 
+pytestmark = pytest.mark.chapter("T16")
+
 STEPS = np.array([20, 40, 80, 160])
 
 
+@pytest.mark.chapter("P40")
 @pytest.mark.parametrize(("name", "weights"), [("closed", "combinatorial"), ("bad", "cotangent")])
 def test_first_order_with_opposite_signs(name, weights):
     mesh = MESHES[name]()

@@ -11,6 +11,7 @@ from beltrami.operators.weights import WEIGHTS
 from meshes_of_the_errata import MESHES
 
 
+@pytest.mark.chapter("D14")
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.parametrize("kind", WEIGHTS)
 def test_laplacian_and_degrees(name, kind):
@@ -20,6 +21,7 @@ def test_laplacian_and_degrees(name, kind):
     assert np.allclose(pair.degrees, d, rtol=1e-10)
 
 
+@pytest.mark.chapter("D15", "P33")
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.parametrize("kind", WEIGHTS)
 def test_normalised(name, kind):
@@ -29,6 +31,7 @@ def test_normalised(name, kind):
     assert np.allclose(np.sqrt(pair.degrees), root, rtol=1e-10)
 
 
+@pytest.mark.chapter("P7", "P33")
 @pytest.mark.parametrize("seed", [123456789, 987654321])
 def test_random_graphs(seed):
     rng = np.random.default_rng(seed)

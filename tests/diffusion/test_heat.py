@@ -71,6 +71,7 @@ def test_explicit_steps_against_dense_products(mass, weights, columns):
         assert np.array_equal(result[hold], f[hold])
 
 
+@pytest.mark.chapter("D17")
 @pytest.mark.parametrize("mass", MASSES)
 @pytest.mark.parametrize("name", IRREGULAR)
 def test_the_mean_of_b_is_kept(mass, name):
@@ -174,6 +175,7 @@ def test_explicit_steps_beyond_the_proven_bound_are_refused(mass):
     assert np.abs(np.linalg.matrix_power(S, 2000) @ f).max() > 1e10
 
 
+@pytest.mark.chapter("T16", "R3")
 @pytest.mark.parametrize("name", IRREGULAR)
 @pytest.mark.parametrize("mass", MASSES)
 def test_the_longest_step_is_stable(name, mass):

@@ -25,6 +25,7 @@ CASES = {
 }
 
 
+@pytest.mark.chapter("X6")
 def test_averaging_against_the_matrix():
     mesh = MESHES["bad"]()
     W = oracle.weights(mesh, "combinatorial")
@@ -35,6 +36,7 @@ def test_averaging_against_the_matrix():
     assert np.allclose(smooth_mesh(mesh).vertices, ten, atol=1e-13)  # the defaults
 
 
+@pytest.mark.chapter("X6")
 def test_heat_of_the_coordinates():
     mesh = MESHES["obt"]()
     pair = laplacian(mesh)
@@ -46,6 +48,7 @@ def test_heat_of_the_coordinates():
     assert np.allclose(got.vertices, expected)
 
 
+@pytest.mark.chapter("X6")
 @pytest.mark.parametrize("case", CASES)
 @pytest.mark.parametrize("name", IRREGULAR)
 def test_translation_rotation_unit_and_numbering_do_not_matter(name, case):
@@ -73,6 +76,7 @@ def test_translation_rotation_unit_and_numbering_do_not_matter(name, case):
     assert np.allclose(renumbered, expected[order], atol=1e-9 * size)
 
 
+@pytest.mark.chapter("X6")
 @pytest.mark.parametrize("method", [{"steps": 8}, {"method": "implicit", "time": 0.02}])
 @pytest.mark.parametrize("name", ["closed", "obt"])
 def test_keep(name, method):

@@ -31,6 +31,7 @@ def _step_matrix(W, step, held):
     return S
 
 
+@pytest.mark.chapter("R4", "P19")
 @pytest.mark.parametrize("weights", KINDS)
 @pytest.mark.parametrize("columns", [None, 0, 1, 2, 3, 4, 7])
 @pytest.mark.parametrize("step", [1.0, 0.37])
@@ -102,6 +103,7 @@ def test_the_weighted_mean_is_kept_and_the_range_not_left(name):
         assert pair.dirichlet_energy(result) < pair.dirichlet_energy(f)
 
 
+@pytest.mark.chapter("D9")
 @settings(deadline=None, max_examples=25)
 @given(st.integers(0, 2**40), st.floats(0, 1), st.integers(0, 30))
 def test_maximum_principle(seed, step, steps):

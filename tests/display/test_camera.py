@@ -5,6 +5,7 @@ from beltrami.display.camera import Camera
 from beltrami.errors import DimensionError, MeshError, NonFiniteError
 
 
+@pytest.mark.chapter("P8")
 def test_known_points_have_known_images():
     # the eye at z = 4 with a half angle of 45 degrees: at the depth d the picture is 2 d wide
     camera = Camera((0, 0, 4), (0, 0, 0), (0, 1, 0), 90)

@@ -33,6 +33,7 @@ def test_diverging_is_white_in_the_middle_and_as_dark_at_both_ends():
     assert lab[-1, 1] > 0.1  # red above
 
 
+@pytest.mark.chapter("P52")
 def test_signs_and_limits():
     assert is_signed(np.array([-1.0, 0, 2]))
     assert not is_signed(np.array([0.0, 2]))

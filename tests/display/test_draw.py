@@ -12,6 +12,7 @@ from beltrami.mesh.mesh import Mesh
 BARE = {"ambient": 0.0, "fill": 0.0, "color": "white", "background": "black", "antialias": 1}
 
 
+@pytest.mark.chapter("F3.1")
 def test_the_silhouette_of_a_sphere_is_a_disk_of_the_radius_foretold(sphere):
     size = (300, 200)
     style = Style(size, background="black", antialias=1)
@@ -23,6 +24,7 @@ def test_the_silhouette_of_a_sphere_is_a_disk_of_the_radius_foretold(sphere):
     assert not seen[radius > FILL * 100].any()
 
 
+@pytest.mark.chapter("P13")
 @pytest.mark.parametrize("lamp", [(0.3, 0.5, 1.0), (-1.0, 0.2, 0.1)])
 def test_without_ambient_and_fill_the_picture_is_the_intensity_of_the_chapter(sphere, lamp):
     light = DirectionalLight(lamp)
@@ -125,6 +127,7 @@ def functional(mesh, f, size=(200, 200), levels=(), view=(0, 0), **options):
     return draw_panel(panel, Style(size, **options)), panel
 
 
+@pytest.mark.chapter("P52")
 def test_the_level_line_lies_where_the_function_changes_sign(sphere):
     f = sphere.vertices[:, 0] - 0.3 * sphere.vertices[:, 1]
     plain, panel = functional(sphere, f, antialias=1)
@@ -142,6 +145,7 @@ def test_the_level_line_lies_where_the_function_changes_sign(sphere):
     assert dark.max() < 100  # the line has no gap
 
 
+@pytest.mark.chapter("F3.1")
 def test_level_lines_behind_the_surface_are_hidden(sphere):
     # the level z = -0.5 is a circle on the far side
     plain, _ = functional(sphere, sphere.vertices[:, 2])

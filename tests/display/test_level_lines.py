@@ -15,6 +15,7 @@ def on_screen(xy, nearness):
     )
 
 
+@pytest.mark.chapter("P52")
 def test_the_line_is_where_the_function_has_the_level():
     # f = x / 10 on the screen, at constant depth
     triangles = on_screen([[[0, 0], [40, 0], [0, 40]]], [[2, 2, 2]])
@@ -43,6 +44,7 @@ def test_neighbours_find_the_same_point():
     assert len(ends) == 3  # one shared, to the last bit
 
 
+@pytest.mark.chapter("P52")
 @pytest.mark.parametrize("f", [[1, 2, 3], [0, 0, 0], [0, 1, 1], [0, -1, -1], [0, 0, 1]])
 def test_no_line_where_the_function_does_not_cross(f):
     triangles = on_screen([[[0, 0], [40, 0], [0, 40]]], [[1, 1, 1]])

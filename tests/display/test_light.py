@@ -13,6 +13,7 @@ from beltrami.errors import DimensionError, MeshError, UnknownNameError
 from beltrami.mesh.mesh import Mesh
 
 
+@pytest.mark.chapter("U11", "P12")
 def test_a_lamp_above_lights_the_north_pole_and_not_the_south(sphere):
     # erratum E11: with the printed l(i) = (v_i - s) / |v_i - s| it is the other way round
     intensity = light_intensity(sphere, SpotLight((0, 0, 3)))
@@ -21,6 +22,7 @@ def test_a_lamp_above_lights_the_north_pole_and_not_the_south(sphere):
     assert intensity[south] == 0
 
 
+@pytest.mark.chapter("U11", "P12")
 def test_a_lamp_lights_the_vertices_that_see_it(sphere):
     lamp = np.array([0.4, -1.1, 2.3])
     # a convex mesh hides no vertex but from the lights behind all its faces there
@@ -37,6 +39,7 @@ def test_a_lamp_lights_the_vertices_that_see_it(sphere):
     assert not (lit & ~sees).any()
 
 
+@pytest.mark.chapter("U11")
 def test_intensity_is_the_cosine(sphere):
     lamp = np.array([0.5, 0.7, 4.0])
     towards = lamp - sphere.vertices
@@ -51,11 +54,13 @@ def test_the_length_of_a_direction_does_not_matter(sphere):
     assert np.allclose(light_intensity(sphere, DirectionalLight((1e-200, 2e-200, 2e-200))), one)
 
 
+@pytest.mark.chapter("P11")
 def test_a_far_lamp_is_a_direction(sphere):
     far = light_intensity(sphere, SpotLight((0, 0, 1e9)))
     assert np.allclose(far, light_intensity(sphere, DirectionalLight((0, 0, 1))), atol=1e-8)
 
 
+@pytest.mark.chapter("P12")
 def test_a_lamp_in_a_vertex_gives_it_no_light_and_no_nan(square):
     intensity = light_intensity(square, SpotLight(square.vertices[2]))
     assert intensity.tolist() == [0, 0, 0, 0]

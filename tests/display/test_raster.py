@@ -32,6 +32,7 @@ def by_barycentric_coordinates(triangles, size):
     return seen, nearest
 
 
+@pytest.mark.chapter("P8")
 @pytest.mark.parametrize("seed", [55_310_882, 9_004_417_263])
 def test_against_numpy(seed):
     rng = np.random.default_rng(seed)
@@ -46,6 +47,7 @@ def test_against_numpy(seed):
     assert len(np.unique(seen)) > 5
 
 
+@pytest.mark.chapter("F3.1", "P8")
 @pytest.mark.parametrize("order", [(0, 1), (1, 0)])
 def test_the_nearer_triangle_wins_in_both_orders(order):
     corners = np.array([[2, 2], [18, 2], [2, 18]])

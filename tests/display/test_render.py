@@ -65,6 +65,7 @@ def test_a_common_camera_shows_sizes(sphere):
     assert own[:, :100].sum() == own[:, 100:].sum()
 
 
+@pytest.mark.chapter("F3.1")
 def test_zoom_shows_the_faces_larger(coarse_sphere):
     # figure 3.1: the part between 0.375 and 0.625 of the picture fills it at zoom 4
     options = {"shading": "flat", "antialias": 1, "view": (0, 0)}

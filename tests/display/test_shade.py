@@ -42,6 +42,7 @@ def picture(triangles, paint, size=(40, 40), samples=1, strokes=NO_STROKES):
 LOWER = np.array([[[0, 0], [0, 40], [40, 40]]])  # counter-clockwise: a front
 
 
+@pytest.mark.chapter("P8", "P13")
 def test_light_is_linear_in_a_triangle_that_faces_the_camera():
     light = np.array([[0.1, 0.9, 0.5]])
     image = picture(on_screen(LOWER), painted(1, front=light))
@@ -51,6 +52,7 @@ def test_light_is_linear_in_a_triangle_that_faces_the_camera():
     assert np.abs(image[y, x, 0] - 255 * expected).max() <= 0.51
 
 
+@pytest.mark.chapter("P8")
 def test_colours_are_linear_in_a_triangle_that_faces_the_camera():
     corners = np.array([[[0.2, 0.4, 1.0], [1.0, 0.0, 0.5], [0.0, 1.0, 0.25]]])
     image = picture(on_screen(LOWER), painted(1, values=corners))

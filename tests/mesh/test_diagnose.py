@@ -80,6 +80,7 @@ def test_infinite_coordinates_make_no_warning(d):
     assert defects(Mesh(x, [[0, 1, 2], [1, 3, 2]])) == {"non_finite_vertices": [3]}
 
 
+@pytest.mark.chapter("U4")
 def test_unreferenced_vertices():
     x, f = sphere()
     mesh = Mesh(np.concatenate([[[5, 5, 5]], x, [[6, 6, 6]]]), f + 1)

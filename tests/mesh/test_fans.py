@@ -1,4 +1,5 @@
 import numpy as np
+import pytest
 from hypothesis import given
 
 from beltrami.mesh.fans import group_corners
@@ -53,6 +54,7 @@ def test_fans_against_sets_of_faces(pair):
     assert np.array_equal(root < 0, np.repeat(twice[:, None], 3, axis=1))
 
 
+@pytest.mark.chapter("P10")
 @given(any_arrays())
 def test_manifold_vertices_are_those_with_a_path_or_a_cycle_as_link(pair):
     vertices, faces = pair
@@ -62,6 +64,7 @@ def test_manifold_vertices_are_those_with_a_path_or_a_cycle_as_link(pair):
     assert topology.is_manifold == (not bad)
 
 
+@pytest.mark.chapter("P10")
 def test_two_tetrahedra_that_share_a_vertex():
     """E9: at most two faces at each edge, yet no manifold; the Euler characteristic is 3."""
     one = tetrahedron().faces

@@ -28,6 +28,7 @@ def areas_by_gram(vertices, faces):
     return np.sqrt(np.maximum(uu * vv - uv**2, 0)) / 2
 
 
+@pytest.mark.chapter("U6", "U12")
 @given(closed_meshes())
 def test_areas_and_angles_by_other_formulas(mesh):
     x, f = mesh.vertices, mesh.faces
@@ -38,11 +39,13 @@ def test_areas_and_angles_by_other_formulas(mesh):
         assert np.cos(geometry.corner_angles(x, f)[:, c]) == pytest.approx(cosine, abs=1e-12)
 
 
+@pytest.mark.chapter("U12")
 @given(closed_meshes())
 def test_corner_angles_add_to_pi(mesh):
     assert mesh.corner_angles.sum(axis=1) == pytest.approx(np.pi, abs=1e-12)
 
 
+@pytest.mark.chapter("U12")
 @given(planar_meshes())
 def test_angles_around_an_inner_vertex_of_a_plane_add_to_two_pi(mesh):
     sums = np.bincount(mesh.faces.ravel(), mesh.corner_angles.ravel(), mesh.n_vertices)
@@ -59,6 +62,7 @@ def test_angles_of_needles_are_exact():
     assert np.pi - blade[2] == pytest.approx(4 * tiny, rel=1e-6)
 
 
+@pytest.mark.chapter("U5")
 @given(planar_meshes(), generators())
 def test_two_three_and_five_dimensions_agree(mesh, rng):
     for d in (3, 5):
@@ -110,6 +114,7 @@ def test_translation_far_away():
 # ------------------------------------------------------------------------------ normals
 
 
+@pytest.mark.chapter("U10")
 def test_the_corner_of_a_cube():
     """E10: the plain sum is off by 19.47 degrees, the sum weighted by angles by nothing."""
     symmetric = -np.ones(3) / np.sqrt(3)
@@ -122,6 +127,7 @@ def test_the_corner_of_a_cube():
     assert mesh.vertex_normals[0] == pytest.approx(symmetric, abs=1e-15)
 
 
+@pytest.mark.chapter("U9", "U10")
 def test_weights_by_a_loop():
     rng = np.random.default_rng(27182818284)
     mesh = icosphere(1)

@@ -42,6 +42,7 @@ def check(faces, n):
     assert pairing.complete == all(len(set(face)) == 3 for face in faces.tolist())
 
 
+@pytest.mark.chapter("P9")
 @given(any_arrays())
 def test_sides_are_paired_as_a_dictionary_pairs_them(pair):
     vertices, faces = pair

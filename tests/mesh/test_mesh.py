@@ -76,6 +76,7 @@ def test_corner_uv_has_one_pair_for_each_corner():
             Mesh(X, F, corner_uv=wrong)
 
 
+@pytest.mark.chapter("D5")
 def test_vertex_data_have_a_row_for_each_vertex():
     data = {"a": [1, 2, 3, 4], "b": np.ones((4, 2), np.float32)}
     mesh = Mesh(X, F, data)
@@ -181,6 +182,7 @@ def test_many_threads_get_the_same_answers():
 # ------------------------------------------------------------------------------ copies with changes
 
 
+@pytest.mark.chapter("X2")
 def test_with_vertices_shares_the_topology_and_drops_normals():
     mesh = Mesh(X, F, {"a": np.arange(4), "normal": X}, np.zeros((4, 3, 2)))
     edges = mesh.edges

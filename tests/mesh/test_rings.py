@@ -33,6 +33,7 @@ def ring_of(neighbours, i, s, kind):
     return sorted(ends)
 
 
+@pytest.mark.chapter("D3", "Q3.2")
 @given(any_arrays(), st.integers(1, 4), st.data())
 def test_the_three_rings_by_breadth_first_search(pair, s, data):
     vertices, faces = pair
@@ -87,6 +88,7 @@ def test_unknown_kind():
     assert "'exact'" in str(caught.value)
 
 
+@pytest.mark.chapter("D4")
 @given(any_arrays())
 def test_incident_faces_by_membership(pair):
     vertices, faces = pair
@@ -99,6 +101,7 @@ def test_incident_faces_by_membership(pair):
         assert (np.diff(around.indices[around.indptr[i] : around.indptr[i + 1]]) > 0).all()
 
 
+@pytest.mark.chapter("D4")
 def test_face_rings_add_up_to_three_times_the_faces():
     mesh = torus(5, 4)
     rings = [mesh.face_ring(i) for i in range(mesh.n_vertices)]
@@ -108,6 +111,7 @@ def test_face_rings_add_up_to_three_times_the_faces():
         assert (mesh.faces[ring] == i).any(axis=1).all()
 
 
+@pytest.mark.chapter("U2", "P5")
 @given(any_arrays())
 def test_adjacency_is_symmetric_with_ones_and_no_diagonal(pair):
     vertices, faces = pair

@@ -205,6 +205,7 @@ def test_many_threads_get_the_same_answers():
 # ------------------------------------------------------------------------------ edges
 
 
+@pytest.mark.chapter("U2", "U3")
 @given(any_arrays())
 def test_edges_by_a_dictionary(pair):
     vertices, faces = pair
@@ -404,6 +405,7 @@ def test_the_genus_of_what_has_none():
 # ------------------------------------------------------------------------------ orientation
 
 
+@pytest.mark.chapter("P10")
 @pytest.mark.parametrize("n", [5, 6, 9])
 def test_a_moebius_strip_has_no_orientation(n):
     topology = strip(n)

@@ -31,6 +31,7 @@ def test_the_largest_root_against_numpy(seed):
     assert bounds.largest_face_eigenvalue(sides, corners) == pytest.approx(true, rel=1e-9)
 
 
+@pytest.mark.chapter("T9")
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.parametrize("weights", WEIGHTS)
 def test_bounds_the_spectrum_of_every_pair(name, weights):

@@ -20,6 +20,7 @@ from beltrami.operators.weights import weigh_edges
 from meshes_of_the_errata import IRREGULAR, MESHES
 
 
+@pytest.mark.chapter("U17")
 def test_incidence_goes_from_the_smaller_vertex_to_the_larger():
     G0 = incidence_matrix(np.array([[0, 2], [1, 2]]), 4)
     assert G0.toarray().tolist() == [[-1, 0, 1, 0], [0, -1, 1, 0]]
@@ -46,6 +47,7 @@ def test_face_gradient_is_exact_for_linear_functions(name):
         assert np.allclose(got[f], basis @ (basis.T @ slope), atol=1e-9)
 
 
+@pytest.mark.chapter("P38")
 @pytest.mark.parametrize("name", IRREGULAR)
 def test_the_stiffness_is_minus_divergence_of_gradient(name):
     mesh = MESHES[name]()

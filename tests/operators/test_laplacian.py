@@ -19,6 +19,7 @@ from beltrami.operators.weights import SYMMETRIC_WEIGHTS, WEIGHTS
 from meshes_of_the_errata import IRREGULAR, MESHES, triangle
 
 
+@pytest.mark.chapter("D14")
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.parametrize("weights", WEIGHTS)
 def test_the_pair_against_dense_matrices(name, weights):
@@ -46,6 +47,7 @@ def test_defaults():
     assert kinds(laplacian(W, "combinatorial", "unit")) == ("combinatorial", "unit")
 
 
+@pytest.mark.chapter("X3", "P7")
 @pytest.mark.parametrize("name", IRREGULAR)
 def test_a_graph_of_the_weights_gives_the_same_pair(name):
     mesh = MESHES[name]()

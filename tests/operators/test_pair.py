@@ -24,6 +24,7 @@ def pair(request):
     return laplacian(MESHES["bad"](), mass=request.param)
 
 
+@pytest.mark.chapter("D6")
 def test_functions_of_the_pair(pair):
     f = oracle.rough_functions(MESHES["bad"](), 2)
     L, B = pair.stiffness.toarray(), pair.mass.toarray()
@@ -58,6 +59,7 @@ def test_functions_of_the_wrong_shape_or_with_nan_are_refused(pair):
     assert caught.value.vertices.tolist() == [5, 9]
 
 
+@pytest.mark.chapter("Q3.3")
 @pytest.mark.parametrize("name", MESHES)
 def test_negative_edges_are_exactly_those_with_a_negative_sum_of_cotangents(name):
     mesh = MESHES[name]()

@@ -15,6 +15,7 @@ from beltrami.operators.weights import WEIGHTS, edge_weights, weigh_edges
 from meshes_of_the_errata import IRREGULAR, MESHES, triangle
 
 
+@pytest.mark.chapter("X3", "Q3.3")
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.parametrize("kind", WEIGHTS)
 def test_against_angles_and_lengths(name, kind):
@@ -34,6 +35,7 @@ def test_a_face_more_on_an_edge_adds_its_cotangent():
     assert edge_weights(mesh, "cotangent")[0, 1] == pytest.approx(cot.sum() / 2)
 
 
+@pytest.mark.chapter("X3")
 @pytest.mark.parametrize("kind", WEIGHTS)
 def test_dependence_on_the_unit(kind):
     mesh = MESHES["obt"]()
@@ -57,6 +59,7 @@ def test_a_needle_is_no_degenerate_face(unit):
     assert weigh_edges(scaled, "cotangent").max() == pytest.approx(cot / 2, rel=1e-9)
 
 
+@pytest.mark.chapter("U5")
 @pytest.mark.parametrize("name", IRREGULAR)
 def test_an_isometry_into_more_dimensions_changes_nothing(name):
     mesh = MESHES[name]()
@@ -78,6 +81,7 @@ def test_the_order_of_corners_and_faces_does_not_matter(name):
         assert np.allclose(weigh_edges(other, "cotangent"), expected, rtol=1e-9, atol=1e-10)
 
 
+@pytest.mark.chapter("P4", "P16")
 def test_combinatorial_weights_need_no_positions():
     mesh = MESHES["open"]()
     W = edge_weights(mesh.topology, "combinatorial")
@@ -95,6 +99,7 @@ def test_misspelt_names_are_answered_with_the_right_ones():
     )  # fmt: skip
 
 
+@pytest.mark.chapter("X3")
 def test_defects_are_named():
     x = [[0, 0], [1, 0], [0, 1], [2, 0], [1, 1]]
     good, flat, twice = [0, 1, 2], [0, 1, 3], [1, 1, 2]

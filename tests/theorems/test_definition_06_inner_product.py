@@ -10,6 +10,8 @@ from beltrami.mesh.mesh import Mesh
 from beltrami.operators.laplacian import laplacian
 from meshes_of_the_errata import IRREGULAR, MESHES
 
+pytestmark = pytest.mark.chapter("D6")
+
 
 @pytest.mark.parametrize("name", IRREGULAR)
 def test_the_square_of_the_norm_of_one(name):

@@ -8,9 +8,12 @@ from beltrami.errors import NegativeWeightError
 from beltrami.operators.laplacian import laplacian
 from meshes_of_the_errata import IRREGULAR, MESHES, triangle
 
+pytestmark = pytest.mark.chapter("D9")
+
 POSITIVE = [(name, kind) for name in IRREGULAR for kind in ("combinatorial", "distance")]
 
 
+@pytest.mark.chapter("P18")
 @pytest.mark.parametrize(("name", "kind"), [*POSITIVE, ("closed", "cotangent")])
 def test_rows_are_averages(name, kind):
     mesh = MESHES[name]()

@@ -7,7 +7,10 @@ from beltrami.errors import NegativeWeightError
 from beltrami.operators.laplacian import laplacian
 from meshes_of_the_errata import IRREGULAR, MESHES
 
+pytestmark = pytest.mark.chapter("D13")
 
+
+@pytest.mark.chapter("U17", "U18", "P30")
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.parametrize("kind", ["combinatorial", "distance"])
 def test_one_row_for_each_edge_from_i_to_j(name, kind):
@@ -24,6 +27,7 @@ def test_one_row_for_each_edge_from_i_to_j(name, kind):
     assert np.abs(G @ np.ones(n)).max() < 1e-14 * abs(G).max()
 
 
+@pytest.mark.chapter("X5")
 @pytest.mark.parametrize("name", IRREGULAR)
 def test_with_distance_weights_it_is_the_slope_along_the_edge(name):
     mesh = MESHES[name]()
@@ -35,6 +39,7 @@ def test_with_distance_weights_it_is_the_slope_along_the_edge(name):
     assert np.allclose(G @ (mesh.vertices @ slope), along @ slope, atol=1e-11)
 
 
+@pytest.mark.chapter("P30")
 def test_the_other_orientation_changes_g_and_not_l():
     pair = laplacian(MESHES["bad"](), "distance")
     signs = np.random.default_rng(28979).choice([-1, 1], size=(len(pair.edges), 1))

@@ -10,7 +10,10 @@ from beltrami.operators.laplacian import laplacian
 from beltrami.operators.weights import WEIGHTS
 from meshes_of_the_errata import IRREGULAR, MESHES
 
+pytestmark = pytest.mark.chapter("D14")
 
+
+@pytest.mark.chapter("R1")
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.parametrize("kind", WEIGHTS)
 def test_symmetric_with_constants_in_its_kernel(name, kind):
@@ -22,6 +25,7 @@ def test_symmetric_with_constants_in_its_kernel(name, kind):
     assert np.abs(np.diag(pair.degrees).sum(axis=1)).max() > 1  # printed: "the Laplacian D" (E42)
 
 
+@pytest.mark.chapter("P36")
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.parametrize("kind", WEIGHTS)
 def test_semi_definite_whatever_the_signs(name, kind):
@@ -42,6 +46,7 @@ def test_made_of_the_normalised_averaging_it_is_not_symmetric(name):
         laplacian(csr_array(A))
 
 
+@pytest.mark.chapter("P21")
 @pytest.mark.parametrize("name", ["open", "bad", "pl"])
 def test_linear_functions_are_harmonic_inside_planar_meshes(name):
     mesh = MESHES[name]()

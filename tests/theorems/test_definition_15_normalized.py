@@ -9,6 +9,8 @@ from beltrami.operators.pair import MASSES
 from beltrami.operators.weights import WEIGHTS
 from meshes_of_the_errata import IRREGULAR, MESHES
 
+pytestmark = pytest.mark.chapter("D15")
+
 
 @pytest.mark.parametrize("name", IRREGULAR)
 @pytest.mark.parametrize("kind", WEIGHTS)
@@ -29,6 +31,7 @@ def test_three_expressions(name, kind):
     assert np.abs(N - N.T).max() < 1e-13
 
 
+@pytest.mark.chapter("T7", "P32")
 @pytest.mark.parametrize("name", IRREGULAR)
 @pytest.mark.parametrize("kind", WEIGHTS)
 def test_diagonal_trace_and_kernel(name, kind):

@@ -11,6 +11,8 @@ from beltrami.mesh.shapes import icosphere
 from beltrami.operators.laplacian import laplacian
 from meshes_of_the_errata import IRREGULAR, MESHES
 
+pytestmark = pytest.mark.chapter("D17")
+
 
 @pytest.mark.parametrize("name", IRREGULAR)
 @pytest.mark.parametrize("mass", ["degree", "voronoi", "consistent"])
@@ -25,6 +27,7 @@ def test_many_steps_come_near_the_exponential(name, mass):
     assert pair.norm(heat(pair, f, time, steps=400) - exact) < 0.01 * change
 
 
+@pytest.mark.chapter("P35")
 def test_with_areas_z_on_the_sphere_decays_like_exp_of_minus_two_t():
     mesh = icosphere(4)
     z = mesh.vertices[:, 2]

@@ -9,6 +9,8 @@ from beltrami.operators.laplacian import laplacian
 from beltrami.operators.weights import edge_weights, weigh_edges
 from meshes_of_the_errata import IRREGULAR, MESHES
 
+pytestmark = pytest.mark.chapter("Q3.3")
+
 
 @pytest.mark.parametrize("name", MESHES)
 def test_energy_of_the_interpolant(name):
@@ -48,6 +50,7 @@ def test_a_boundary_edge_has_one_cotangent(name):
     assert abs(energy(2) - 1) > 0.01  # or counted twice
 
 
+@pytest.mark.chapter("P23")
 def test_other_weights_do_not_give_the_energy():
     mesh = MESHES["open"]()
     x = mesh.vertices[:, 0]

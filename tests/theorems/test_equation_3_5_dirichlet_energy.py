@@ -8,6 +8,8 @@ from beltrami.operators.gradient import face_gradient
 from beltrami.operators.laplacian import laplacian
 from meshes_of_the_errata import MESHES
 
+pytestmark = pytest.mark.chapter("Q3.5")
+
 
 @pytest.mark.parametrize("name", MESHES)
 def test_every_route_gives_the_energy_of_the_interpolant(name):
@@ -43,6 +45,7 @@ def test_a_smooth_function_on_the_square():
     assert laplacian(mesh).dirichlet_energy(f) == pytest.approx(exact, rel=0.05)
 
 
+@pytest.mark.chapter("P35")
 def test_l_is_minus_the_laplacian_times_the_areas():
     """On a mesh inscribed in the sphere the mean of B⁻¹L x over the surface is 2x (E30)."""
     mesh = MESHES["closed"]()

@@ -9,6 +9,8 @@ from beltrami.diffusion.smoothing import smooth
 from beltrami.operators.laplacian import laplacian
 from meshes_of_the_errata import IRREGULAR, MESHES
 
+pytestmark = pytest.mark.chapter("Q3.6")
+
 
 @pytest.mark.parametrize("name", IRREGULAR)
 @pytest.mark.parametrize("delta", [0.25, 0.9, 1.0])

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from scipy.spatial import Voronoi
 
 import dense_oracles as oracle
 from beltrami.operators.areas import vertex_areas
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.weights import weigh_edges
 from meshes_of_the_errata import MESHES
+from voronoi_oracle import clipped_cells
 
 
 def _printed(mesh):
@@ -17,6 +17,7 @@ def _printed(mesh):
     return np.bincount(mesh.edges.ravel(), np.repeat(cells, 2), mesh.n_vertices) / 2
 
 
+@pytest.mark.chapter("D10", "T3")
 @pytest.mark.parametrize("name", MESHES)
 def test_the_sum_of_the_printed_areas_is_twice_the_area(name):
     mesh = MESHES[name]()
@@ -26,25 +27,10 @@ def test_the_sum_of_the_printed_areas_is_twice_the_area(name):
     assert np.allclose(vertex_areas(mesh, "circumcentric"), _printed(mesh) / 2, atol=1e-10)
 
 
-def _clipped_cells(points):
-    """Areas of the Voronoi cells that lie inside the unit square, and their numbers."""
-    diagram = Voronoi(points)
-    areas = {}
-    for i, region in enumerate(diagram.point_region):
-        corners = diagram.regions[region]
-        if -1 in corners:
-            continue
-        x = diagram.vertices[corners]
-        if ((x > 0) & (x < 1)).all():
-            angle = np.argsort(np.arctan2(*(x - x.mean(axis=0)).T))
-            x, y = x[angle].T
-            areas[i] = abs(x @ np.roll(y, 1) - y @ np.roll(x, 1)) / 2
-    return np.array(list(areas)), np.array(list(areas.values()))
-
-
+@pytest.mark.chapter("D10", "T3")
 def test_single_cells_of_a_planar_delaunay_mesh_against_geometry():
     mesh = MESHES["open"]()
-    cells, exact = _clipped_cells(mesh.vertices)
+    cells, exact = clipped_cells(mesh.vertices)
     assert len(cells) > 100
     assert np.allclose(vertex_areas(mesh, "circumcentric")[cells], exact, rtol=1e-9)
     assert np.allclose(_printed(mesh)[cells], 2 * exact, rtol=1e-9)
@@ -52,14 +38,16 @@ def test_single_cells_of_a_planar_delaunay_mesh_against_geometry():
     assert mixed.max() > 0.05  # cut at obtuse angles: positive, and no longer the exact cells
 
 
+@pytest.mark.chapter("D10", "T3")
 def test_of_a_mesh_that_is_not_delaunay_only_the_total_is_right():
     mesh = MESHES["bad"]()
-    cells, exact = _clipped_cells(mesh.vertices)
+    cells, exact = clipped_cells(mesh.vertices)
     ratio = vertex_areas(mesh, "circumcentric")[cells] / exact
     assert ratio.min() < 0
     assert ratio.max() > 2
 
 
+@pytest.mark.chapter("D10")
 @pytest.mark.parametrize("name", ["obt", "bad"])
 def test_signed_areas_may_be_negative_and_the_default_is_not(name):
     mesh = MESHES[name]()
@@ -68,6 +56,7 @@ def test_signed_areas_may_be_negative_and_the_default_is_not(name):
     assert laplacian(mesh).masses.min() > 0
 
 
+@pytest.mark.chapter("U14")
 def test_what_integrates_linear_functions_exactly():
     mesh = MESHES["open"]()
     x = mesh.vertices[:, 0]
@@ -77,6 +66,7 @@ def test_what_integrates_linear_functions_exactly():
     assert _printed(mesh) @ x == pytest.approx(1.0, abs=0.01)
 
 
+@pytest.mark.chapter("U14")
 def test_quadrature_of_a_smooth_function():
     mesh = MESHES["open"]()
     x, y = mesh.vertices.T
@@ -86,6 +76,7 @@ def test_quadrature_of_a_smooth_function():
     assert _printed(mesh) @ f == pytest.approx(2 * exact, rel=3e-3)
 
 
+@pytest.mark.chapter("T3", "P35")
 def test_a_mesh_inscribed_in_the_sphere():
     """<L x_i, x_i> = 2 A_i with the signed areas: exact, cell by cell (E30)."""
     mesh = MESHES["closed"]()
@@ -100,3 +91,18 @@ def test_masses_against_loops_on_the_obtuse_mesh():
     mesh = MESHES["obt"]()
     expected = np.diag(oracle.masses(mesh, "voronoi", np.zeros((mesh.n_vertices,) * 2)))
     assert np.allclose(vertex_areas(mesh), expected, rtol=1e-8)
+
+
+@pytest.mark.chapter("D10", "T3")
+@pytest.mark.parametrize("unit", [1e-3, 1e-60, 1e60])
+@pytest.mark.parametrize("name", ["obt", "bad"])
+def test_areas_have_the_square_of_the_unit_and_the_energy_has_none(name, unit):
+    mesh = MESHES[name]()
+    other = mesh.with_vertices(unit * mesh.vertices)
+    for kind in ("barycentric", "voronoi", "circumcentric"):
+        areas = vertex_areas(mesh, kind)
+        assert np.allclose(vertex_areas(other, kind) / unit / unit, areas, rtol=1e-9, atol=1e-14)
+    f = mesh.vertices[:, 0]
+    assert laplacian(other).dirichlet_energy(f) == pytest.approx(
+        laplacian(mesh).dirichlet_energy(f)
+    )

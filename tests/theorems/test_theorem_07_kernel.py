@@ -11,6 +11,8 @@ from beltrami.operators.laplacian import laplacian
 from beltrami.operators.weights import WEIGHTS
 from meshes_of_the_errata import IRREGULAR, MESHES
 
+pytestmark = pytest.mark.chapter("T7")
+
 
 @pytest.mark.parametrize("name", IRREGULAR)
 @pytest.mark.parametrize("kind", WEIGHTS)

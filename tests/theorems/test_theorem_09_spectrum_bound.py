@@ -11,6 +11,8 @@ from beltrami.mesh.mesh import Mesh
 from beltrami.operators.laplacian import laplacian
 from meshes_of_the_errata import MESHES, flipped, triangle
 
+pytestmark = pytest.mark.chapter("T9")
+
 
 def _normalised(pair):
     return np.linalg.eigvalsh(pair.normalized.toarray())

@@ -9,6 +9,8 @@ from beltrami.diffusion.smoothing import smooth
 from beltrami.operators.laplacian import laplacian
 from meshes_of_the_errata import IRREGULAR, MESHES
 
+pytestmark = pytest.mark.chapter("T14")
+
 
 @pytest.mark.parametrize("name", IRREGULAR)
 @pytest.mark.parametrize("kind", ["combinatorial", "distance"])
@@ -65,6 +67,7 @@ def test_where_cotangents_vanish_it_jumps_for_ever():
     assert np.ptp(smooth(plain, f, 4000)) < 1e-9
 
 
+@pytest.mark.chapter("R4", "P49")
 def test_an_even_cycle_alternates_between_the_means_of_its_two_classes():
     """Remark 4 and theorem 5: bounded at δ = 1, but not convergent (E37, E53)."""
     n = 16

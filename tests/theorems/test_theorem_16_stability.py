@@ -12,6 +12,8 @@ from beltrami.errors import StepTooLongError
 from beltrami.operators.laplacian import laplacian
 from meshes_of_the_errata import MESHES
 
+pytestmark = pytest.mark.chapter("T16")
+
 COTANGENT = [("closed", False), ("obt", True), ("bad", True)]
 
 
@@ -20,6 +22,7 @@ def _explicit(pair, delta):
     return np.eye(pair.n) - delta * np.linalg.solve(B, L)
 
 
+@pytest.mark.chapter("R3")
 @pytest.mark.parametrize(("name", "negative"), COTANGENT)
 def test_the_limit_is_two_over_the_largest_eigenvalue(name, negative):
     mesh = MESHES[name]()
@@ -40,6 +43,7 @@ def test_the_limit_is_two_over_the_largest_eigenvalue(name, negative):
     assert np.abs(calm).max() <= np.abs(f).max()
 
 
+@pytest.mark.chapter("R3")
 def test_the_printed_limit_is_neither_sufficient_nor_necessary():
     bad = laplacian(MESHES["bad"](), mass="degree")
     f = oracle.rough_functions(MESHES["bad"](), 1)[:, 0]
@@ -82,6 +86,7 @@ def _even_cycle():
     return csr_array(A)
 
 
+@pytest.mark.chapter("P40")
 def test_a_bipartite_graph_converges_as_well():
     """Printed: the explicit scheme needs a graph that is not two-colourable (E75)."""
     pair = laplacian(_even_cycle())
@@ -100,8 +105,40 @@ def _minus_flow(pair):
     return np.linalg.solve(pair.mass.toarray(), pair.stiffness.toarray())
 
 
+@pytest.mark.chapter("R4", "U31")
 def test_explicit_heat_with_the_degree_mass_is_averaging_with_that_step():
     mesh = MESHES["bad"]()
     pair = laplacian(mesh, "distance", "degree")
     f = oracle.rough_functions(mesh, 3)
     assert np.allclose(heat(pair, f, 7 * 0.8, "explicit", 7), smooth(pair, f, 7, 0.8), rtol=1e-9)
+
+
+@pytest.mark.parametrize("name", ["closed", "obt", "bad"])
+def test_the_default_explicit_steps_overshoot_no_mode(name):
+    """δ <= 1 / bound, so that with positive weights a spike stays between 0 and 1."""
+    pair = laplacian(MESHES[name](), "combinatorial")
+    time, seen = 7.3 / pair.spectral_bound(), []
+    spike = np.zeros(pair.n)
+    spike[17] = 1
+    after = heat(pair, spike, time, "explicit", progress=lambda done, total: seen.append(total))
+    assert seen[-1] == 8  # the fewest
+    assert after.min() >= 0
+    assert after.max() <= 1
+    one = heat(pair, spike, 1.9 / pair.spectral_bound(), "explicit", 1)
+    with pytest.raises(AssertionError):  # a longer one, though stable, overshoots
+        assert one.min() >= 0
+
+
+@pytest.mark.chapter("R3")
+@pytest.mark.parametrize("name", ["closed", "obt"])
+def test_averaging_refuses_steps_beyond_two_over_the_bound(name):
+    mesh = MESHES[name]()
+    pair = laplacian(mesh, "combinatorial", "voronoi")  # its mass does not matter
+    longest = 2 / pair.spectral_bound(mass="degree")
+    assert 1 < longest <= 2 / np.linalg.eigvalsh(pair.normalized.toarray())[-1]
+    f = oracle.rough_functions(mesh)
+    calm = smooth(pair, f, 3000, 0.999 * longest)
+    assert np.abs(calm).max() <= 2 * np.abs(f).max()
+    with pytest.raises(StepTooLongError) as caught:
+        smooth(pair, f, 1, 1.001 * longest)
+    assert caught.value.longest == pytest.approx(longest)

@@ -30,6 +30,8 @@ def heat(
 ) -> Floats:
     r"""Diffuse a function for a time t: :math:`\partial F / \partial t = -B^{-1} L F`, F_0 = f.
 
+    Chapter items: D17, T15, T16, Q3.6, Q3.7, U30, U31, U32, R3, R4, P40, P47.
+
     Parameters
     ----------
     laplacian

@@ -33,6 +33,8 @@ def smooth_mesh(
 ) -> Mesh:
     r"""Smooth the positions of a mesh; all else stays, but for data named "normal".
 
+    Chapter items: X2, X6, P20.
+
     Parameters
     ----------
     mesh

@@ -31,6 +31,8 @@ def smooth(
     With δ = 1 this is :math:`\tilde W^k f` (l. 186); in general the explicit heat equation for
     the degree mass (equation 3.6, E51), whatever the mass of ``laplacian``.
 
+    Chapter items: T14, Q3.6, R4, P19, P49.
+
     Parameters
     ----------
     laplacian

@@ -81,6 +81,8 @@ class Camera:
         (0, 0) is the upper left corner of the picture; the centre of its first pixel is
         (0.5, 0.5). The depth is along the line of sight, in the unit of the points.
 
+        Chapter items: P8.
+
         Raises
         ------
         MeshError

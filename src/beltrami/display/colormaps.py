@@ -116,6 +116,8 @@ def is_signed(f: Floats) -> bool:
 def symmetric_limits(f: Floats) -> tuple[float, float]:
     """Limits -a, a with a = max |f|: the middle colour is the value zero.
 
+    Chapter items: P52.
+
     Examples
     --------
     >>> symmetric_limits(np.array([-3.0, 1.0]))

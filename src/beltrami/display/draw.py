@@ -80,6 +80,8 @@ def corner_light(mesh: Mesh, camera: Camera, style: Style, colored: bool) -> Flo
     fill = 0 leave I. The inside is lit through the opposite normals. A corner at a vertex without
     a normal takes the normal of its face. A planar mesh has no shape to show: without a light of
     the user, it has light 1 everywhere, and its colours are those of the bar.
+
+    Chapter items: P13.
     """
     points, faces = in_space(mesh.vertices, mesh.faces)
     if mesh.dimension == 2 and style.light is None:

@@ -24,6 +24,8 @@ def level_lines(triangles: Triangles, values: Floats, level: float) -> Floats:
     t d_i / (t d_i + (1 - t) d_j) in the picture, d the nearness (``Triangles``). A face on which
     f is constant gives no segment; O(t).
 
+    Chapter items: P52.
+
     Parameters
     ----------
     values

@@ -22,6 +22,8 @@ SHADINGS = ("gouraud", "flat")
 class DirectionalLight:
     """A light at infinity: l(i) = l for every vertex.
 
+    Chapter items: P11.
+
     Attributes
     ----------
     direction : (3,) float
@@ -44,6 +46,8 @@ class DirectionalLight:
 @dataclass(frozen=True, eq=False, init=False)
 class SpotLight:
     """A lamp at a point s: l(i) = (s - x_i) / |s - x_i|.
+
+    Chapter items: P12.
 
     Attributes
     ----------
@@ -69,6 +73,8 @@ def light_intensity(mesh: Mesh, light: Light, shading: str = "gouraud") -> Float
 
     l(i) is the unit vector that points towards the light. The chapter prints v_i - s, which
     lights the far side (erratum E11).
+
+    Chapter items: U11.
 
     Parameters
     ----------

@@ -36,6 +36,8 @@ def visible_triangles(
     A sample belongs to a triangle that covers its middle. A middle on a side shared by two
     triangles belongs to one of them, by the top-left rule in exact integers: no crack, and no
     sample twice. O(covered samples).
+
+    Chapter items: P8.
     """
     width, height = size
     seen, nearness, _ = _cover(triangles.xy, triangles.nearness, width, height, hide_backs)

@@ -52,6 +52,8 @@ def render(
 
     No display, window or graphics card is needed, and the same input gives the same bytes.
 
+    Chapter items: F3.1, P8, P13.
+
     Parameters
     ----------
     mesh

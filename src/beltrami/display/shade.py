@@ -67,6 +67,8 @@ def shade(
     averaged as light, not as sRGB values: half covered is then half as bright to the eye, and
     thin dark lines on white do not look ragged.
 
+    Chapter items: P8, P13.
+
     Parameters
     ----------
     strokes

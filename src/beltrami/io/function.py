@@ -23,6 +23,8 @@ _TEXT = (".txt", ".csv", ".dat", ".tsv")
 def read_function(path: str | os.PathLike[str], name: str | None = None) -> Floats:
     r"""Read a function on the vertices, one row for each: (n,) or (n, c) float64.
 
+    Chapter items: D5.
+
     Parameters
     ----------
     path

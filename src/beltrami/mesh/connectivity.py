@@ -14,6 +14,8 @@ from beltrami._jit import kernel
 def component_labels(pairs: NDArray[Any], n: int) -> Integers:
     """Label the components of a graph on n nodes, 0, 1, ... in the order of their first node.
 
+    Chapter items: T7.
+
     Examples
     --------
     >>> component_labels(np.array([[0, 3], [1, 2]]), 4).tolist()
@@ -36,6 +38,8 @@ def parity_colouring(pairs: NDArray[Any], differ: Booleans, n: int) -> Booleans 
 
     The first node of each component is False. With ``differ`` all true this is a colouring with
     two colours (definition 18); over pairs of neighbouring faces it is an orientation.
+
+    Chapter items: D18.
 
     Returns
     -------

@@ -181,6 +181,8 @@ def diagnose(mesh: Mesh) -> Diagnosis:
 
     Nothing is changed, and no defect is an error here. Cost: O(n log n + m).
 
+    Chapter items: U4, P10.
+
     Examples
     --------
     >>> stray = Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 5, 5]], [[0, 1, 2]])

@@ -34,6 +34,8 @@ class Fans(NamedTuple):
 def group_corners(faces: Integers, twins: NDArray[np.int32], n: int) -> Fans:
     """Group the corners of the faces into fans; O(m).
 
+    Chapter items: P10.
+
     Examples
     --------
     >>> import numpy as np

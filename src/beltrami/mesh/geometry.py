@@ -73,6 +73,8 @@ def face_vectors(vertices: Floats, faces: Integers) -> Floats:
 def face_areas(vertices: Floats, faces: Integers) -> Floats:
     """Return the area of each face, in any dimension.
 
+    Chapter items: U6.
+
     Examples
     --------
     >>> face_areas(np.array([[0.0, 0], [2, 0], [0, 1]]), np.array([[0, 1, 2]])).tolist()
@@ -95,6 +97,8 @@ def unit(vectors: Floats) -> Floats:
 def corner_angles(vertices: Floats, faces: Integers) -> Floats:
     """Return the (m, 3) angles at the corners, in radians: exact also for needles.
 
+    Chapter items: U12.
+
     Examples
     --------
     >>> right = corner_angles(np.array([[0.0, 0], [1, 0], [0, 1]]), np.array([[0, 1, 2]]))
@@ -110,6 +114,8 @@ def vertex_normals(vertices: Floats, faces: Integers, weights: str) -> Floats:
     ``"uniform"`` is the rule of the chapter (l. 105), ``"area"`` weighs by the area of each face
     and ``"angle"`` by its angle at the vertex, which alone does not depend on how a flat piece
     is cut into faces (E10). Where the mean vanishes, the normal is zero.
+
+    Chapter items: U10.
 
     Raises
     ------

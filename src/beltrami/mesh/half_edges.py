@@ -20,6 +20,8 @@ class HalfEdges(NamedTuple):
     Side ``c`` of a face is the one opposite its corner ``c``: it runs from corner ``c + 1`` to
     corner ``c + 2``, and its half-edge has the number ``3 f + c``.
 
+    Chapter items: P9.
+
     Attributes
     ----------
     edges : (p, 2) int
@@ -46,6 +48,8 @@ class HalfEdges(NamedTuple):
 
 def pair_sides(faces: Integers, n: int) -> HalfEdges:
     """Pair the sides of the faces of a mesh with n vertices; O(n + m) for bounded valence.
+
+    Chapter items: U3, U8, U17, P6, P9.
 
     Examples
     --------

@@ -21,6 +21,8 @@ def order_boundary(
     and starts at its smallest vertex. Where several loops meet in one vertex, each keeps to its
     fan of faces. Cost: O(m).
 
+    Chapter items: P10.
+
     Raises
     ------
     NotManifoldError

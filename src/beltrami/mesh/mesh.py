@@ -30,6 +30,8 @@ class Mesh(Frozen):
     Nothing is reordered, merged or repaired. Shapes and indices are checked here; defects
     (NaN, flat faces, unreferenced vertices ...) are named by ``diagnose``.
 
+    Chapter items: D5, U5, U6, U9, U10, U12, P4.
+
     Parameters
     ----------
     vertices
@@ -108,6 +110,8 @@ class Mesh(Frozen):
 
         Data and texture coordinates are kept, except data named "normal", which would no longer
         be true.
+
+        Chapter items: X2.
         """
         kept = {name: data for name, data in self.vertex_data.items() if name != "normal"}
         return Mesh(vertices, self.topology, kept, self.corner_uv)

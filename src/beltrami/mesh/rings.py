@@ -16,12 +16,18 @@ RING_KINDS = ("exact", "ball", "walk")
 
 
 def adjacency_matrix(edges: Integers, n: int) -> csr_array:
-    """Return the symmetric (n, n) matrix A with A_ij = 1 on the edges, rows sorted; O(n + p)."""
+    """Return the symmetric (n, n) matrix A with A_ij = 1 on the edges, rows sorted; O(n + p).
+
+    Chapter items: Q3.1, U2, P5, P6, P7.
+    """
     return symmetric_matrix(edges, np.ones(len(edges)), n)
 
 
 def incident_faces(faces: Integers, n: int) -> csr_array:
-    """Return the (n, m) matrix whose row i marks the faces around vertex i (definition 4, E7)."""
+    """Return the (n, m) matrix whose row i marks the faces around vertex i (definition 4, E7).
+
+    Chapter items: D4, U7.
+    """
     indptr, indices = _faces_of_vertices(faces, n)
     return csr_array((np.ones(len(indices)), indices, indptr), shape=(n, len(faces)))
 
@@ -32,6 +38,8 @@ def vertex_ring(adjacency: csr_array, i: int, s: int, kind: str) -> Integers:
     The recursion (3.2) of the chapter can be read in three ways, which differ (erratum E6):
     ``"exact"`` is {j : distance = s}, ``"ball"`` {j : 0 < distance <= s} and ``"walk"`` the ends
     of the walks of s edges, as printed: i itself is among them for s = 2.
+
+    Chapter items: D3, Q3.1, Q3.2.
 
     Raises
     ------

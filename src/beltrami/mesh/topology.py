@@ -40,6 +40,8 @@ class Topology(Frozen):
     Faces that name a vertex twice are kept, but have no sides: they make no edge, no fan and no
     component. What is derived is computed when first asked for, once.
 
+    Chapter items: D3, D4, U2, U3, U4, U7, U8, U17, P4, P5, P6, P9, P10.
+
     Parameters
     ----------
     faces

@@ -27,6 +27,8 @@ def vertex_areas(mesh: Mesh, kind: str = "voronoi") -> Floats:
 
     The unit is length². A vertex in no face has area 0.
 
+    Chapter items: D10.
+
     Raises
     ------
     UnknownNameError

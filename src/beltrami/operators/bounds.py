@@ -25,6 +25,8 @@ def largest_face_eigenvalue(side_weights: Floats, corner_masses: Floats) -> floa
     :math:`\lambda^2 - t\lambda + s` with :math:`t = \sum_i L_{ii} / b_i` and
     :math:`s = (w_i w_j + w_j w_k + w_k w_i)(b_i + b_j + b_k) / (b_i b_j b_k)`.
 
+    Chapter items: T9.
+
     Parameters
     ----------
     side_weights

@@ -13,7 +13,10 @@ from beltrami.operators.soundness import require_sound
 
 
 def incidence_matrix(edges: Integers, n: int) -> csr_array:
-    """Return the (p, n) signed incidence G0: (G0 f)_(i,j) = f_j - f_i for each edge i < j (E38)."""
+    """Return the (p, n) signed incidence G0: (G0 f)_(i,j) = f_j - f_i for each edge i < j (E38).
+
+    Chapter items: U17.
+    """
     p = len(edges)
     values = np.tile([-1.0, 1.0], p)
     pointers = np.arange(0, 2 * p + 1, 2)
@@ -24,6 +27,8 @@ def edge_gradient(edges: Integers, edge_weight: Floats, n: int) -> csr_array:
     r"""Return the (p, n) gradient :math:`(Gf)_{(i,j)} = \sqrt{w_{ij}} (f_j - f_i)` (definition 13).
 
     Then G'G = D - W (theorem 6), which needs non-negative weights (E40).
+
+    Chapter items: D13, U18, X5, P30.
 
     Raises
     ------
@@ -82,6 +87,8 @@ def face_divergence(mesh: Mesh) -> csr_array:
     It is minus the adjoint of ``face_gradient`` for the areas: -<u, ∇f> summed over the faces is
     <div u, f>, so the stiffness of cotangent weights is -(divergence @ gradient). Divide by the
     vertex areas for the divergence at a point.
+
+    Chapter items: P38.
 
     Raises
     ------

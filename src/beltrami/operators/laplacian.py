@@ -34,12 +34,14 @@ def laplacian(
 ) -> Laplacian:
     r"""Make the pair (L, B) of a mesh, of a topology, or of a graph.
 
+    Chapter items: D14, X3, P7, P16, P17, P21, P35.
+
     Parameters
     ----------
     domain
-        A Mesh; a Topology (combinatorial weights); a Grid, an IntrinsicTriangulation, or another
-        object that makes its own pair (``make_laplacian``, which names its weights); or a
-        symmetric sparse matrix of weights.
+        A Mesh; a Topology (combinatorial weights); a symmetric sparse matrix of weights; an
+        IntrinsicTriangulation; a Grid, or another object that makes its own pair
+        (``make_laplacian``, which names its weights).
     weights
         ``"cotangent"`` (default on a Mesh), ``"combinatorial"`` (default elsewhere),
         ``"distance"``, ``"clamped"``, or a callable: see ``edge_weights``.

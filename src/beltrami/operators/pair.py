@@ -41,6 +41,8 @@ class Laplacian:
     cotangent weights :math:`\langle Lf, f\rangle = \int |\nabla f|^2` and
     :math:`B^{-1}L \approx -\Delta`: positive, with the factor ½ in the weights (E29, E30).
 
+    Chapter items: D7, D14, T7, R1, P36, P38.
+
     Attributes
     ----------
     stiffness : (n, n) csr_array
@@ -96,6 +98,8 @@ class Laplacian:
         r"""(n, n) :math:`\tilde W = D^{-1} W`, rows that add to 1 (definition 9).
 
         Raises NegativeWeightError, with the edges, if a weight is negative.
+
+        Chapter items: D9, P18.
         """
         self.require_non_negative("averaging")
         self._require_degrees()
@@ -103,7 +107,10 @@ class Laplacian:
 
     @cached_property
     def normalized(self) -> csr_array:
-        r"""(n, n) :math:`\tilde L = D^{-1/2} L D^{-1/2}`, unit diagonal (definition 15, E43)."""
+        r"""(n, n) :math:`\tilde L = D^{-1/2} L D^{-1/2}`, unit diagonal (definition 15, E43).
+
+        Chapter items: D15, T7, U20, R1, P32, P33.
+        """
         self._require_degrees()
         root = diagonal_matrix(1 / np.sqrt(self.degrees))
         return csr_array(root @ self.stiffness @ root)
@@ -115,7 +122,10 @@ class Laplacian:
 
     @cached_property
     def gradient(self) -> csr_array:
-        """(p, n) edge gradient G with G'G = L (theorem 6); NegativeWeightError if w < 0 (E40)."""
+        """(p, n) edge gradient G with G'G = L (theorem 6); NegativeWeightError if w < 0 (E40).
+
+        Chapter items: D13, T6, U18, X5, P30.
+        """
         slightly = (self.edge_weight < 0) & (self.edge_weight >= -self._rounding)
         kept = np.where(slightly, 0, self.edge_weight)
         return edge_gradient(self.edges, kept, self.n)
@@ -123,25 +133,40 @@ class Laplacian:
     # ---------------------------------------------------------------- functions
 
     def apply(self, f: ArrayLike) -> Floats:
-        """B⁻¹ L f for (n,) or (n, c); not defined for the consistent mass, which needs a solve."""
+        """B⁻¹ L f for (n,) or (n, c); not defined for the consistent mass, which needs a solve.
+
+        Chapter items: D7, U30, P35.
+        """
         values = as_function(f, self.n)
         self._require_diagonal("apply")
         return np.asarray(((self.stiffness @ values).T / self.masses).T)
 
     def inner(self, f: ArrayLike, g: ArrayLike) -> float:
-        """<f, g>_B = f' B g, summed over the columns (definition 6 with a mass, E12)."""
+        """<f, g>_B = f' B g, summed over the columns (definition 6 with a mass, E12).
+
+        Chapter items: D6.
+        """
         return float(np.vdot(as_function(f, self.n), self.mass @ as_function(g, self.n)))
 
     def norm(self, f: ArrayLike) -> float:
-        """Norm sqrt(<f, f>_B)."""
+        """Norm sqrt(<f, f>_B).
+
+        Chapter items: D6.
+        """
         return float(np.sqrt(self.inner(f, f)))
 
     def mean(self, f: ArrayLike) -> Floats:
-        """Mean <1, f>_B / <1, 1>_B of each column: what diffusion preserves and tends to."""
+        """Mean <1, f>_B / <1, 1>_B of each column: what diffusion preserves and tends to.
+
+        Chapter items: T14, T15.
+        """
         return np.asarray(self.masses @ as_function(f, self.n) / self.masses.sum())
 
     def dirichlet_energy(self, f: ArrayLike) -> float:
-        """<Lf, f>, summed over the columns; ∫|∇f|² of the linear interpolant for cotangents."""
+        """<Lf, f>, summed over the columns; ∫|∇f|² of the linear interpolant for cotangents.
+
+        Chapter items: Q3.5, U19, P23.
+        """
         values = as_function(f, self.n)
         return float(np.vdot(values, self.stiffness @ values))
 
@@ -166,6 +191,8 @@ class Laplacian:
         cotangent weights it is the bound of E62, :math:`(3 + \sqrt{1 - 8 \cos A \cos B
         \cos C}) / 2 < 3`; with area masses it grows like the inverse square of the shortest
         edges. Explicit steps must stay below twice its inverse. Cost: O(m).
+
+        Chapter items: T9, T16, R3.
         """
         kind = self.mass_kind if mass is None else check_name("mass", mass, MASSES)
         if self.domain is None:

@@ -18,6 +18,8 @@ BACKENDS = ("auto", "superlu")
 def factorize(A: Any, coordinates: ArrayLike | None = None, backend: str = "auto") -> Factor:
     """Factorise a square sparse matrix, to solve with it many times.
 
+    Chapter items: P41.
+
     Parameters
     ----------
     A
