@@ -10,9 +10,11 @@ from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats
 from beltrami.errors import SurfaceError, check_name
+from beltrami.mesh.shapes.parameters import whole
 from beltrami.surfaces import checks, forms
 from beltrami.surfaces.functions import in_parameters, values_of
 from beltrami.surfaces.geodesics import acceleration, integrate, orthonormal_frame
+from beltrami.surfaces.immersion import Derivatives
 
 if TYPE_CHECKING:
     from beltrami.surfaces.surface import ParametricSurface
@@ -88,15 +90,15 @@ def ball_average_laplacian(
     a, b, shape = checks.broadcast(u, v)
     start = np.repeat(values_of(fbar, a, b), directions)
 
-    def follow(_: float, now: Floats) -> Floats:
-        at = surface.immersion.derivatives(now[0], now[1])
+    def follow(at: Derivatives, now: Floats) -> Floats:
         curvature = forms.gaussian_curvature(at.jacobian, at.hessian)
         width, spread = now[4:6]
         difference = (values_of(fbar, *surface.domain.nearest(now[0], now[1])) - start) * width
         turn = acceleration(at.jacobian, at.hessian, now[2:4])
         return np.stack([*now[2:4], *turn, spread, -curvature * width, width, difference])
 
-    end = integrate(surface, follow, _fan(surface, a, b, directions), float(radius), steps)
+    fan = _fan(surface, a, b, whole("directions", directions, least=3))
+    end = integrate(surface, follow, fan, float(radius), steps)
     width, area, excess = (end[row].reshape(-1, directions).sum(axis=1) for row in (4, 6, 7))
     if over == "disk":
         return (8 / radius**2 * excess / area).reshape(shape)

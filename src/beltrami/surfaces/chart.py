@@ -53,7 +53,7 @@ class Chart(Frozen):
         a, b, shape = self._door(u, v)
         points = self.immersion.points(a, b)
         checks.require_finite(points, a, b)
-        return points.reshape(*shape, -1)
+        return points.reshape(*shape, *points.shape[1:])
 
     @property
     def dimension(self) -> int:
@@ -73,7 +73,7 @@ class Chart(Frozen):
         a, b, shape = self._door(u, v)
         tangents = self.immersion.tangents(a, b)
         checks.require_derivatives(tangents, a, b)
-        return tangents.reshape(*shape, -1, 2)
+        return tangents.reshape(*shape, *tangents.shape[1:])
 
     def first_fundamental_form(self, u: ArrayLike, v: ArrayLike) -> Floats:
         r"""(..., 2, 2) form :math:`I_{ij} = \langle\partial_i\varphi, \partial_j\varphi\rangle`.

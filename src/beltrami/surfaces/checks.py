@@ -42,7 +42,7 @@ def require_inside(domain: ParameterDomain, u: Floats, v: Floats) -> None:
 
 def require_finite(values: Floats, u: Floats, v: Floats, what: str = "φ") -> None:
     """Raise SurfaceError, with the parameters, where a value is NaN or infinite."""
-    bad: Booleans = ~_finite_rows(values.reshape(len(u), -1))
+    bad: Booleans = ~_finite_rows(values)
     if bad.any():
         raise SurfaceError(
             f"{what} is NaN or infinite",
@@ -53,7 +53,7 @@ def require_finite(values: Floats, u: Floats, v: Floats, what: str = "φ") -> No
 
 def require_derivatives(values: Floats, u: Floats, v: Floats, what: str = "φ") -> None:
     """Raise NotDifferentiableError, with the parameters, where a derivative is not finite."""
-    bad: Booleans = ~_finite_rows(values.reshape(len(u), -1))
+    bad: Booleans = ~_finite_rows(values)
     if bad.any():
         raise NotDifferentiableError(
             f"{what} has no finite derivative",
@@ -117,7 +117,7 @@ def _compare(what: str, given: Floats, measured: Floats, u: Floats, v: Floats) -
 
 
 def _finite_rows(rows: Floats) -> Booleans:
-    return np.asarray(np.isfinite(rows).all(axis=1))
+    return np.asarray(np.isfinite(rows).all(axis=tuple(range(1, rows.ndim))))
 
 
 def _pairs(u: Floats, v: Floats, which: Booleans) -> Floats:

@@ -24,7 +24,7 @@ def trace(chart: Chart, curve: Map, t: ArrayLike) -> Floats:
     times = rectangular(t).astype(np.float64)
     uv = tabulate(call(curve, "the curve", 1, times.reshape(-1, 1)))
     _require_pairs(uv)
-    return chart(*uv.T).reshape(*times.shape, -1)
+    return chart(*uv.T).reshape(*times.shape, chart.dimension)
 
 
 def intrinsic_length(chart: Chart, curve: Map, start: float, end: float, pieces: int) -> float:

@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats
+from beltrami.mesh.shapes.parameters import whole
 from beltrami.surfaces import checks, forms
+from beltrami.surfaces.immersion import Derivatives
 
 if TYPE_CHECKING:
     from beltrami.surfaces.surface import ParametricSurface
@@ -51,10 +53,10 @@ def exponential_map(
     state = np.stack([x.astype(np.float64) for x in np.broadcast_arrays(a, b, du, dv)])
     flat = state.reshape(4, -1)
 
-    def follow(_: float, now: Floats) -> Floats:
-        at = surface.immersion.derivatives(now[0], now[1])
+    def follow(at: Derivatives, now: Floats) -> Floats:
         return np.concatenate([now[2:], acceleration(at.jacobian, at.hessian, now[2:])])
 
+    checks.require_inside(surface.domain, flat[0], flat[1])
     end = integrate(surface, follow, flat, 1.0, steps)
     return np.moveaxis(end[:2].reshape(2, *state.shape[1:]), 0, -1)
 
@@ -73,27 +75,29 @@ def orthonormal_frame(surface: ParametricSurface, u: Floats, v: Floats) -> Float
 
 def integrate(
     surface: ParametricSurface,
-    slope: Callable[[float, Floats], Floats],
+    slope: Callable[[Derivatives, Floats], Floats],
     state: Floats,
     end: float,
     steps: int,
 ) -> Floats:
-    """Integrate states (c, n), whose first two rows are parameters, from 0 to ``end``."""
-    h = end / steps
-    for step in range(steps):
-        t = step * h
-        _require_chart(surface, state)
-        k1 = slope(t, state)
-        k2 = slope(t + h / 2, state + h / 2 * k1)
-        k3 = slope(t + h / 2, state + h / 2 * k2)
-        k4 = slope(t + h, state + h * k3)
+    """Integrate states (c, n), whose first two rows are parameters, from 0 to ``end``.
+
+    ``slope`` is called with the derivatives of φ there and with the state.
+    """
+    h = end / whole("steps", steps, least=1)
+
+    def at(now: Floats) -> Floats:
+        u, v = now[0], now[1]
+        here = surface.immersion.derivatives(u, v)
+        checks.require_derivatives(here.hessian, u, v)
+        checks.require_rank(here.jacobian, surface.domain, surface.size, u, v)
+        return slope(here, now)
+
+    for _ in range(steps):
+        k1 = at(state)
+        k2 = at(state + h / 2 * k1)
+        k3 = at(state + h / 2 * k2)
+        k4 = at(state + h * k3)
         state = state + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
-    _require_chart(surface, state)
+        checks.require_inside(surface.domain, state[0], state[1])
     return state
-
-
-def _require_chart(surface: ParametricSurface, state: Floats) -> None:
-    u, v = state[0], state[1]
-    checks.require_inside(surface.domain, u, v)
-    tangents = surface.immersion.tangents(u, v)
-    checks.require_rank(tangents, surface.domain, surface.size, u, v)

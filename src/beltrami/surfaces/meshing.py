@@ -55,7 +55,7 @@ def _rectangle(
         np.linspace(*domain.v, nv + 1), np.linspace(*domain.u, nu + 1), indexing="ij"
     )
     parameters, points = np.stack([u, v], axis=-1), chart(u, v)
-    number = glue(points, parameters, domain)
+    number = glue(points, parameters, domain, chart.size)
     _, kept = np.unique(number, return_index=True)
     faces = number[lattice_faces(nv, nu)]
     a, b, c = faces.T

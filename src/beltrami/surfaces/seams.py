@@ -13,7 +13,7 @@ from beltrami.surfaces.domain import Rectangle
 _CLOSES = 1e-7  # of the size of the surface: sides that differ by less are the same
 
 
-def glue(points: Floats, parameters: Floats, domain: Rectangle) -> Integers:
+def glue(points: Floats, parameters: Floats, domain: Rectangle, size: float) -> Integers:
     """Return the number, after gluing, of each vertex of a lattice over the rectangle.
 
     Periodic sides must meet, point by point, or point by point in the opposite order (Möbius's
@@ -25,6 +25,8 @@ def glue(points: Floats, parameters: Floats, domain: Rectangle) -> Integers:
         (rows, columns, k) points, v along the rows, u along the columns.
     parameters
         (rows, columns, 2) their u and v.
+    size
+        Of the surface: what differs by 1e-7 of it is the same.
 
     Returns
     -------
@@ -38,7 +40,6 @@ def glue(points: Floats, parameters: Floats, domain: Rectangle) -> Integers:
     """
     rows, columns = points.shape[:2]
     numbers = np.arange(rows * columns).reshape(rows, columns)
-    size = float(np.linalg.norm(np.ptp(points.reshape(rows * columns, -1), axis=0)))
     pairs = [np.zeros((2, 0), dtype=np.int64)]
     for axis, around in ((1, domain.periodic[0]), (0, domain.periodic[1])):
         first, last = np.take(numbers, 0, axis), np.take(numbers, -1, axis)
