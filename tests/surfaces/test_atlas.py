@@ -69,6 +69,16 @@ def test_the_change_of_charts_is_the_inversion():
             assert np.allclose(a, b, rtol=1e-11, atol=1e-11)
 
 
+def test_the_direction_of_a_change_of_charts():
+    """From spherical to stereographic parameters: tan(v / 2) (cos u, sin u), and not back."""
+    atlas = Atlas([charts.sphere(), charts.stereographic()])
+    u, v = np.array([0.3, 2.0]), np.array([0.9, 1.4])
+    x, y = atlas.transition(0, 1)(u, v)
+    assert np.allclose(x, np.tan(v / 2) * np.cos(u), rtol=1e-12)
+    assert np.allclose(y, np.tan(v / 2) * np.sin(u), rtol=1e-12)
+    assert np.allclose(atlas.transition(1, 0)(x, y), (u, v), rtol=1e-12)
+
+
 def test_there_and_back():
     atlas = two_disks()
     u, v = 1.0, np.array([0.2, 0.5])

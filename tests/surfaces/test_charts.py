@@ -199,18 +199,37 @@ def test_a_point_without_a_derivative_is_named():
     assert caught.value.parameters.tolist() == [[0, 0]]
 
 
+def test_the_nearest_parameters_of_a_domain():
+    around = Rectangle((1, 3), (0, 1), periodic=(True, False))
+    u, v = around.nearest(np.array([0.5, 3.5, 2.0]), np.array([-1.0, 2.0, 0.3]))
+    assert u.tolist() == [2.5, 1.5, 2]
+    assert v.tolist() == [0, 1, 0.3]
+    u, v = Disk(2.0, center=(1.0, 0.0)).nearest(np.array([5.0, 1.0]), np.array([0.0, 1.5]))
+    assert (u.tolist(), v.tolist()) == ([3, 1], [0, 1.5])
+
+
+def test_samples_are_inside_and_spread():
+    for domain in (Rectangle((1, 3), (0, 1)), Disk(2.0, center=(1.0, 0.0))):
+        u, v = domain.samples(4000)
+        assert domain.contains(u, v).all()
+        middle = {"Rectangle": (2, 0.5), "Disk": (1, 0)}[type(domain).__name__]
+        assert (u.mean(), v.mean()) == pytest.approx(middle, abs=0.01)
+    r = np.hypot(u - 1, v)  # evenly by area
+    assert (r < 1).mean() == pytest.approx(1 / 4, abs=0.01)
+
+
 @pytest.mark.chapter("D1")
 @pytest.mark.parametrize("scale", [1e-9, 1.0, 1e9])
 def test_rank_loss_names_the_parameters_in_any_unit(scale):
     """E2: det I = 0 at the poles of the sphere, where definition 16 divides by sqrt(g)."""
 
     def phi(u, v):
-        v = v / scale**0.5
+        v = v / scale
         return scale * np.sin(v) * np.cos(u), scale * np.sin(v) * np.sin(u), scale * np.cos(v)
 
-    surface = ParametricSurface(phi, (charts.TURN, (0, np.pi * scale**0.5)))
-    poles = np.array([0.0, 0.5, 1.0]) * np.pi * scale**0.5
-    g = np.linalg.det(surface.first_fundamental_form(1.0, poles)) / scale**3
+    surface = ParametricSurface(phi, (charts.TURN, (0, np.pi * scale)))
+    poles = np.array([0.0, 0.5, 1.0]) * np.pi * scale
+    g = np.linalg.det(surface.first_fundamental_form(1.0, poles)) / scale**2
     assert g == pytest.approx([0, 1, 0], abs=1e-14)
     asks = (
         surface.gaussian_curvature,

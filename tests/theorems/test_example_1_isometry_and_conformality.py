@@ -68,6 +68,14 @@ def test_i_equal_to_id_belongs_to_the_map_not_to_the_surface():
 
 
 @pytest.mark.chapter("X1")
+def test_flat_in_parts_is_not_flat():
+    half = ParametricSurface(lambda u, v: (u, v, np.where(u > 0, u, 0.0) ** 4 * v**2), BOX)
+    assert np.array_equal(half.gaussian_curvature([-0.5, -0.1], 0.5), [0, 0])
+    assert half.gaussian_curvature(0.5, 0.5) < -1e-3
+    assert not half.is_flat()
+
+
+@pytest.mark.chapter("X1")
 def test_a_sheared_plane_is_neither_isometric_nor_conformal_but_flat():
     sheared = ParametricSurface(lambda u, v: (u + 0.01 * v, v), BOX)
     assert not sheared.is_isometric()
