@@ -89,6 +89,13 @@ def test_a_sheared_plane_is_neither_isometric_nor_conformal_but_flat():
 
 
 @pytest.mark.chapter("X1")
+def test_a_point_is_no_conformal_image():
+    point = ParametricSurface(lambda u, v: (0 * u, 0 * v, 1), BOX)
+    assert not point.is_conformal()
+    assert not point.is_isometric()
+
+
+@pytest.mark.chapter("X1")
 def test_the_stereographic_map_is_conformal():
     surface = charts.stereographic()
     assert surface.is_conformal()
