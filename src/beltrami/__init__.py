@@ -53,11 +53,19 @@ if TYPE_CHECKING:
     from beltrami.operators.weights import edge_weights as edge_weights
     from beltrami.solvers.factor import Factor as Factor
     from beltrami.solvers.factorize import factorize as factorize
+    from beltrami.surfaces.atlas import Atlas as Atlas
+    from beltrami.surfaces.ball_average import ball_average_laplacian as ball_average_laplacian
+    from beltrami.surfaces.domain import Disk as Disk
+    from beltrami.surfaces.domain import Rectangle as Rectangle
+    from beltrami.surfaces.geodesics import exponential_map as exponential_map
+    from beltrami.surfaces.surface import ParametricSurface as ParametricSurface
 
 __version__ = "0.1.0"
 
 _HOME = {
+    "Atlas": "surfaces.atlas",
     "DirectionalLight": "display.light",
+    "Disk": "surfaces.domain",
     "Diagnosis": "mesh.diagnose",
     "Factor": "solvers.factor",
     "Grid": "grids.grid",
@@ -65,14 +73,18 @@ _HOME = {
     "IntrinsicTriangulation": "operators.intrinsic",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
+    "ParametricSurface": "surfaces.surface",
+    "Rectangle": "surfaces.domain",
     "Repair": "mesh.repair",
     "SpotLight": "display.light",
     "Topology": "mesh.topology",
     "as_mesh": "mesh.convert",
     "convolve": "grids.convolution",
     "dft": "grids.transform",
+    "ball_average_laplacian": "surfaces.ball_average",
     "diagnose": "mesh.diagnose",
     "edge_weights": "operators.weights",
+    "exponential_map": "surfaces.geodesics",
     "face_divergence": "operators.gradient",
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
