@@ -167,9 +167,9 @@ def test_in_a_maze_paths_turn_at_corners_and_at_saddles(height, monkeypatch):
 
 
 def test_faces_that_meet_in_one_vertex():
-    x = [[0, 0], [1, 0], [1, 1], [-1, 0], [-1, -1]]
-    d = distance(Mesh(x, [[0, 1, 2], [0, 3, 4]]), 1)
-    assert d == pytest.approx([1, 0, 1, 2, 1 + np.sqrt(2)])
+    x = [[0, 0], [1, 0], [1, 1], [-1, 0], [-1, -1], [-2, -1]]
+    d = distance(Mesh(x, [[0, 1, 2], [0, 3, 4], [3, 5, 4]]), 1)
+    assert d == pytest.approx([1, 0, 1, 2, 1 + np.sqrt(2), 1 + np.sqrt(5)])
 
 
 def test_other_components_are_out_of_reach():

@@ -6,7 +6,7 @@ import pytest
 import dense_oracles as oracle
 from beltrami.errors import NegativeWeightError, UnknownNameError, UnreferencedVertexError
 from beltrami.mesh.mesh import Mesh
-from beltrami.operators.intrinsic import intrinsic_delaunay
+from beltrami.operators.intrinsic import IntrinsicTriangulation, intrinsic_delaunay
 from beltrami.operators.intrinsic_parts import face_pairs
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.pair import MASSES
@@ -83,6 +83,19 @@ def test_a_face_that_names_a_vertex_twice_needs_even_shares():
     )
     assert (printed > 1.01 * pair.degrees).any()
     assert pair.spectral_bound() <= 3
+
+
+def test_a_face_of_one_vertex_brings_nothing_to_the_bound():
+    """Faces (0, 0, 0) and (0, 0, 1), equilateral, as they are: only two sides join 0 to 1."""
+    dots, double = np.full((2, 3), 0.5), np.full(2, np.sqrt(0.75))
+    faces = np.array([[0, 0, 0], [0, 0, 1]])
+    none = np.full((2, 3), -1, np.int32)
+    triangles = IntrinsicTriangulation(faces, none, none, 0, 2, dots, double)
+    cot = 1 / np.sqrt(3)
+    for mass, corners in (("degree", [cot / 2, cot / 2, cot]), ("unit", [0.2, 0.2, 1])):
+        sides, masses = face_pairs(triangles, mass)
+        assert np.allclose(sides, [[cot / 2, cot / 2, 0]])
+        assert np.allclose(masses, [corners])
 
 
 def test_in_the_plane_it_is_the_cotangent_pair_of_the_delaunay_mesh():

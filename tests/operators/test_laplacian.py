@@ -110,7 +110,7 @@ def test_misspelt_names():
     mesh = triangle(60, 60)
     with pytest.raises(UnknownNameError, match="Did you mean 'combinatorial'") as caught:
         laplacian(mesh, "combinatoric")
-    assert caught.value.choices == WEIGHTS
+    assert caught.value.choices == (*WEIGHTS, "intrinsic_delaunay", "tufted")
     with pytest.raises(UnknownNameError, match="Did you mean 'barycentric'") as caught:
         laplacian(mesh, mass="barycenter")
     assert caught.value.choices == MASSES

@@ -74,7 +74,7 @@ def flip_to_delaunay(
         waiting[e] = False
         h = half_edge[e]
         t = np.int64(twin[h])
-        if h // 3 == t // 3 or is_delaunay(dots, double, h, t):
+        if is_delaunay(dots, double, h, t):  # as is a side glued to another one of its face
             continue
         if not flip_numbers(dots, double, h, t):
             continue
