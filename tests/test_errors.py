@@ -11,9 +11,12 @@ from beltrami.errors import (
     FileFormatError,
     MeshError,
     MissingExtraError,
+    NotDifferentiableError,
     NotManifoldError,
+    RankLossError,
     SingularMatrixError,
     StepTooLongError,
+    SurfaceError,
     UnknownNameError,
     check_name,
 )
@@ -26,6 +29,7 @@ EXAMPLES = (
     ConvergenceError("late"),
     UnknownNameError("weights", "cotan", ("cotangent", "distance")),
     FileFormatError("a.obj", "no number", line=7),
+    RankLossError("no immersion", parameters=[[0.0, 1.5]], remedy="Move."),
     FileFormatError("a.ply", "too short", byte=0),
     MissingExtraError("trimesh", "io", "reading"),
 )
@@ -55,6 +59,7 @@ def test_all_names_every_error():
         (UnknownNameError, ValueError),
         (FileFormatError, ValueError),
         (MissingExtraError, ImportError),
+        (SurfaceError, ValueError),
     ],
 )
 def test_who_knows_only_python_catches_them_too(cls, also):
@@ -66,6 +71,7 @@ def test_the_kinds_of_mesh_errors(name):
     cls = getattr(errors, name)
     others = (StepTooLongError, SingularMatrixError, ConvergenceError, UnknownNameError)
     others += (FileFormatError, MissingExtraError, BeltramiError)
+    others += (SurfaceError, RankLossError, NotDifferentiableError)
     assert issubclass(cls, MeshError) != (cls in others)
 
 
@@ -118,6 +124,16 @@ def test_places_in_files():
     assert str(FileFormatError("a.obj", "no number", line=7)) == "a.obj, line 7: no number"
     assert str(FileFormatError("a.ply", "short", byte=0)) == "a.ply, byte 0: short"
     assert str(FileFormatError("a.ply", "short")) == "a.ply: short"
+
+
+def test_the_guilty_parameters_are_named():
+    error = RankLossError("no immersion", parameters=[0.25, 1.5], remedy="Move.")
+    assert str(error) == "no immersion ((u, v) = (0.25, 1.5)). Move."
+    assert error.parameters.tolist() == [[0.25, 1.5]]
+    assert str(SurfaceError("bad")) == "bad"
+    assert SurfaceError("bad").parameters.shape == (0, 2)
+    assert issubclass(RankLossError, SurfaceError)
+    assert issubclass(NotDifferentiableError, SurfaceError)
 
 
 def test_a_missing_extra_says_what_to_install():

@@ -64,24 +64,35 @@ if TYPE_CHECKING:
     from beltrami.operators.weights import edge_weights as edge_weights
     from beltrami.solvers.factor import Factor as Factor
     from beltrami.solvers.factorize import factorize as factorize
+    from beltrami.surfaces.atlas import Atlas as Atlas
+    from beltrami.surfaces.ball_average import ball_average_laplacian as ball_average_laplacian
+    from beltrami.surfaces.domain import Disk as Disk
+    from beltrami.surfaces.domain import Rectangle as Rectangle
+    from beltrami.surfaces.geodesics import exponential_map as exponential_map
+    from beltrami.surfaces.surface import ParametricSurface as ParametricSurface
 
 __version__ = "0.1.0"
 
 _HOME = {
+    "Atlas": "surfaces.atlas",
     "Curvature": "operators.curvature",
     "Diagnosis": "mesh.diagnose",
     "DirectionalLight": "display.light",
+    "Disk": "surfaces.domain",
     "Factor": "solvers.factor",
     "Grid": "grids.grid",
     "HeatMethod": "geodesics.heat_method",
     "IntrinsicTriangulation": "operators.intrinsic",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
+    "ParametricSurface": "surfaces.surface",
     "PointCloud": "operators.point_cloud",
+    "Rectangle": "surfaces.domain",
     "Repair": "mesh.repair",
     "SpotLight": "display.light",
     "Topology": "mesh.topology",
     "as_mesh": "mesh.convert",
+    "ball_average_laplacian": "surfaces.ball_average",
     "colouring": "operators.colouring",
     "convolve": "grids.convolution",
     "curvature": "operators.curvature",
@@ -91,6 +102,7 @@ _HOME = {
     "edge_areas": "operators.edge_areas",
     "edge_derivative": "operators.differences",
     "edge_weights": "operators.weights",
+    "exponential_map": "surfaces.geodesics",
     "face_divergence": "operators.gradient",
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",

@@ -21,10 +21,13 @@ __all__ = [
     "NegativeWeightError",
     "NonFiniteError",
     "NotClosedError",
+    "NotDifferentiableError",
     "NotManifoldError",
     "NotOrientableError",
+    "RankLossError",
     "SingularMatrixError",
     "StepTooLongError",
+    "SurfaceError",
     "UnknownNameError",
     "UnreferencedVertexError",
 ]
@@ -120,6 +123,35 @@ class NotClosedError(MeshError):
 
 class NegativeWeightError(MeshError):
     """The operation needs non-negative weights; ``edges`` lists those that are not."""
+
+
+class SurfaceError(BeltramiError, ValueError):
+    """A parametric surface is not what the operation needs; ``parameters`` are the guilty (u, v).
+
+    Parameters
+    ----------
+    problem
+        What is wrong, without a final stop.
+    parameters
+        (q, 2) parameters where it is wrong.
+    remedy
+        What to do about it, as a sentence.
+    """
+
+    def __init__(self, problem: str, *, parameters: ArrayLike = (), remedy: str = "") -> None:
+        self.problem = problem
+        self.parameters = np.asarray(parameters, dtype=np.float64).reshape(-1, 2)
+        self.remedy = remedy
+        guilty = f" ({_named('(u, v) =', self.parameters)})" if len(self.parameters) else ""
+        super().__init__(f"{problem}{guilty}. {remedy}" if remedy else f"{problem}{guilty}")
+
+
+class RankLossError(SurfaceError):
+    """The Jacobian has not rank 2, so that det I = 0: no immersion there (E2)."""
+
+
+class NotDifferentiableError(SurfaceError):
+    """A map is written with something whose derivatives are not known, or has none there."""
 
 
 class StepTooLongError(BeltramiError, ValueError):

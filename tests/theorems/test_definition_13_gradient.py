@@ -56,3 +56,16 @@ def test_negative_weights_have_no_real_root(name):
     with pytest.raises(NegativeWeightError) as caught:
         _ = pair.gradient
     assert np.array_equal(caught.value.edges, pair.edges[lost])
+
+
+@pytest.mark.chapter("U17")
+@pytest.mark.parametrize("name", MESHES)
+def test_the_incidence_runs_the_same_way_for_weights_of_any_sign(name):
+    """Without the roots, so that it serves negative weights: f_j - f_i for i < j (E38, E40)."""
+    pair = laplacian(MESHES[name]())
+    f = np.random.default_rng(1602176634).normal(size=pair.n)
+    i, j = pair.edges.T
+    assert np.allclose(pair.incidence @ f, f[j] - f[i], atol=1e-14)
+    weighted = laplacian(MESHES[name](), "distance")
+    roots = np.sqrt(weighted.edge_weight)
+    assert np.allclose(weighted.gradient @ f, roots * (weighted.incidence @ f), rtol=1e-12)
