@@ -79,11 +79,10 @@ class ParametricSurface(Chart):
         return forms.gaussian_curvature(at.jacobian, at.hessian).reshape(shape)
 
     def mean_curvature(self, u: ArrayLike, v: ArrayLike) -> Floats:
-        """(...,) mean curvature, in R³: positive where the surface bends away from its normal,
+        """(...,) mean curvature, in R³: positive where the surface bends away from its normal.
 
-        as a sphere does from an outward one.
-
-        The normal is along ∂φ/∂u x ∂φ/∂v. Not intrinsic: rolling a sheet up changes it.
+        So does a sphere from an outward one. The normal is along ∂φ/∂u x ∂φ/∂v. Not intrinsic:
+        rolling a sheet up changes it.
 
         Chapter items: P3.
 
