@@ -4,6 +4,8 @@ import pytest
 from beltrami.cli.chapters.averaging import averaging
 from beltrami.cli.chapters.chapter import Stage
 from beltrami.cli.chapters.files import files
+from beltrami.cli.chapters.geodesics import geodesics
+from beltrami.cli.chapters.grid import grid as flat_grid
 from beltrami.cli.chapters.heat import heat
 from beltrami.cli.chapters.operators import operators
 from beltrami.cli.chapters.surface import surface
@@ -26,7 +28,7 @@ MESHES = {
         np.concatenate([TETRAHEDRON_FACES, np.add(TETRAHEDRON_FACES, 4)]),
     ),
 }
-CHAPTERS = (surface, operators, averaging, heat, files)
+CHAPTERS = (surface, operators, averaging, flat_grid, heat, geodesics, files)
 
 
 def stage(mesh, folder):
@@ -67,3 +69,23 @@ def test_files_come_back(tmp_path):
     for suffix in (".obj", ".off", ".ply"):
         assert rows[suffix][2:4] == ("320", "0.0e+00")
     assert 0 < float(rows[".stl"][3]) < 1e-7
+
+
+def test_the_fourier_transform_and_small_steps_agree_on_the_grid(tmp_path):
+    rows = flat_grid(stage(MESHES["closed"], tmp_path)).rows[1:]
+    for _, largest, off, moved in rows:
+        assert 0 < float(off) < 0.15 * float(largest)
+        assert abs(float(moved)) < 1e-15
+
+
+def test_distances_through_space_are_shorter(tmp_path):
+    rows = {row[0]: row for row in geodesics(stage(MESHES["closed"], tmp_path)).rows}
+    space, heat_, edges = (float(rows[k][1]) for k in list(rows)[1:])
+    assert space == pytest.approx(2, rel=1e-3)
+    assert heat_ == pytest.approx(np.pi, rel=0.05)
+    assert edges > heat_
+
+
+def test_gauss_and_bonnet_are_told(tmp_path):
+    text = " ".join(operators(stage(MESHES["closed"], tmp_path)).text)
+    assert "2π times 2.000000000: the Euler characteristic is 2" in text

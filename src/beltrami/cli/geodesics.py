@@ -31,8 +31,9 @@ def geodesics(
         ),
     ] = None,
     intrinsic: Annotated[
-        bool, typer.Option("--intrinsic", help="Heat on intrinsic Delaunay triangles.")
-    ] = False,
+        bool,
+        typer.Option(help="Heat on intrinsic Delaunay triangles, or on the faces as they are."),
+    ] = True,
     boundary: Annotated[
         str, typer.Option(help="Of the heat method: neumann or average.")
     ] = "neumann",

@@ -36,7 +36,10 @@ DataName = Annotated[
 ]
 Weights = Annotated[
     str | None,
-    typer.Option(help="combinatorial, distance or cotangent.", show_default=False),
+    typer.Option(
+        help="combinatorial, distance, cotangent, clamped, intrinsic_delaunay or tufted.",
+        show_default=False,
+    ),
 ]
 Mass = Annotated[
     str | None,

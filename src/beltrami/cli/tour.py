@@ -75,11 +75,15 @@ def _play(stage: Stage) -> list[Chapter]:
     from beltrami.cli.chapters.averaging import averaging
     from beltrami.cli.chapters.chapter import Chapter
     from beltrami.cli.chapters.files import files
+    from beltrami.cli.chapters.geodesics import geodesics
+    from beltrami.cli.chapters.grid import grid
     from beltrami.cli.chapters.heat import heat
     from beltrami.cli.chapters.operators import operators
     from beltrami.cli.chapters.surface import surface
 
-    acts: tuple[Callable[[Stage], Chapter], ...] = (surface, operators, averaging, heat, files)
+    acts: tuple[Callable[[Stage], Chapter], ...] = (
+        surface, operators, averaging, grid, heat, geodesics, files
+    )  # fmt: skip
     played = []
     with waiting("touring") as progress:
         for done, act in enumerate(acts):

@@ -42,8 +42,8 @@ class HeatMethod(Frozen):
         distance off; beyond about 700 √t from the sources no heat is left.
     intrinsic
         Use the triangles of ``intrinsic_delaunay``; on a mesh with boundary, edges of more than
-        two faces or one side, those of its cover. Needed where faces are obtuse: heat with
-        negative weights may flow the wrong way, above all from a source on the boundary.
+        two faces or one side, those of its cover. Without, heat with negative weights may flow
+        the wrong way where faces are obtuse, above all from a source on the boundary.
     boundary
         ``"neumann"``: no heat leaves through the boundary, which the lines of equal distance
         meet at a right angle. ``"average"``: the mean of this and of a boundary kept cold, which
@@ -81,7 +81,7 @@ class HeatMethod(Frozen):
         mesh: Mesh,
         *,
         time: float | None = None,
-        intrinsic: bool = False,
+        intrinsic: bool = True,
         boundary: str = "neumann",
     ) -> None:
         check_name("boundary", boundary, BOUNDARIES)

@@ -5,19 +5,22 @@ from __future__ import annotations
 import numpy as np
 
 from beltrami.cli.chapters.chapter import Chapter, Figure, Stage, number
+from beltrami.operators.curvature import curvature
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.pair import Laplacian
-from beltrami.operators.weights import WEIGHTS
 
+SHOWN = ("combinatorial", "distance", "cotangent", "clamped", "tufted")
+NAMES = ("mean curvature", "Gaussian curvature")
 HEAD = ("weights", "smallest weight", "negative edges", "degrees", "λ bound, B = D", "Σ⟨Lx, x⟩ / 2")
 
 
 def operators(stage: Stage) -> Chapter:
     """Compare the weights on the mesh, and draw its mean curvature."""
     mesh = stage.mesh
-    pairs = {kind: laplacian(mesh, kind) for kind in WEIGHTS}
+    pairs = {kind: laplacian(mesh, kind) for kind in SHOWN}
     rows = tuple(_row(kind, pair, mesh.vertices) for kind, pair in pairs.items())
     cotangent = pairs["cotangent"]
+    text, figures, commands = _curvatures(stage)
     return Chapter(
         "Operators",
         "3.2.2 to 3.2.5",
@@ -28,9 +31,12 @@ def operators(stage: Stage) -> Chapter:
             f"coordinates is its area, {number(mesh.area)}.",
             "With area masses an explicit heat step may be at most "
             f"{number(2 / cotangent.spectral_bound())} (length²), by the bound over the faces.",
+            "What each choice promises is told by the object: `laplacian(mesh).properties`.",
+            *text,
         ),
         (HEAD, *rows),
-        _curvature(stage, cotangent),
+        figures,
+        commands=(*commands, f"beltrami integrate {stage.name}"),
     )
 
 
@@ -45,14 +51,28 @@ def _row(kind: str, pair: Laplacian, x: np.ndarray) -> tuple[str, ...]:
     )
 
 
-def _curvature(stage: Stage, pair: Laplacian) -> tuple[Figure, ...]:
-    """B⁻¹ L x = 2 H n: its half along the normal is the mean curvature."""
+def _curvatures(stage: Stage) -> tuple[tuple[str, ...], tuple[Figure, ...], tuple[str, ...]]:
+    """Tell the theorem of Gauss and Bonnet, and draw both curvatures: text, figures, commands."""
     mesh = stage.mesh
-    if mesh.dimension != 3:
-        return ()
-    mean = np.einsum("nc,nc->n", pair.apply(mesh.vertices), mesh.vertex_normals) / 2
-    mean[mesh.topology.boundary_edges.ravel()] = 0  # on a boundary it is no curvature
-    limit = float(np.quantile(np.abs(mean), 0.95))
-    caption = "Mean curvature: half of B⁻¹ L x along the normal; red bulges, blue is hollow."
-    options = {"limits": (-limit, limit), "colormap": "diverging", "level_set": None}
-    return (stage.draw("curvature.png", caption, mesh, mean, **options),)
+    if mesh.dimension != 3 or not (mesh.is_manifold and mesh.is_oriented):
+        return (), (), ()
+    found = curvature(mesh)
+    total = float(found.angle_defect.sum() + found.turning.sum()) / (2 * np.pi)
+    text = (
+        "The angles around a vertex miss 2π by the Gaussian curvature of its cell. All defects, "
+        f"with the turning of the boundary, add to 2π times {total:.9f}: the Euler "
+        f"characteristic is {mesh.euler_characteristic} (Gauss-Bonnet).",
+    )
+    limits = [float(np.quantile(np.abs(h), 0.95)) or 1.0 for h in (found.mean, found.gaussian)]
+    figure = stage.draw(
+        "curvature.png",
+        "Mean curvature, half of B⁻¹ L x along the normal: red bulges, blue is hollow. Gaussian "
+        "curvature: red as on a ball, blue as on a saddle.",
+        mesh,
+        [found.mean / limits[0], found.gaussian / limits[1]],
+        caption=[f"{name}, in units of {number(x)}" for name, x in zip(NAMES, limits, strict=True)],
+        limits=(-1, 1),
+        colormap="diverging",
+        level_set=None,
+    )
+    return text, (figure,), (f"beltrami curvature {stage.name} -o curvature.ply",)
