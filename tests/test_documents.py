@@ -28,6 +28,10 @@ def test_the_code_of_the_readme_runs(tmp_path, monkeypatch, capsys):
     assert "no defects" in printed
     assert "1 of 4 vertices belong to no face (vertices 3). Drop them with repair(" in printed
     assert "('removed 1 unreferenced vertex',) [ 0  1  2 -1]" in printed
+    euler, curvature = (float(line) for line in printed.splitlines()[-4:-2])
+    assert abs(euler - 2) < 1e-9
+    assert abs(curvature - 1) < 1e-12
+    assert scope["distance"][[0, 17]].min() == 0
     assert (tmp_path / "smoother.ply").is_file()
     assert size_of(tmp_path / "picture.png")[0] == 1600
 
@@ -40,7 +44,7 @@ def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
     (tmp_path / "scan.off").write_text(text)
     commands = re.findall(r"^    beltrami (.*?)(?:  +#.*)?$", README, re.MULTILINE)
     commands = [c for c in commands if not c.startswith("tour -o")]
-    assert len(commands) == 6
+    assert len(commands) == 9
     for command in commands:
         words = command.replace("scan.ply", "scan.off").replace("--source 42", "--source 2")
         done = CliRunner().invoke(app, words.split())
@@ -48,7 +52,17 @@ def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
     assert (tmp_path / "tour" / "index.html").is_file()
 
 
-@pytest.mark.parametrize("name", ["ARCHITECTURE", "CONTRIBUTING", "README", "docs/conventions"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "ARCHITECTURE",
+        "CONTRIBUTING",
+        "README",
+        "docs/conventions",
+        "docs/errata",
+        "docs/chapter-map",
+    ],
+)
 def test_links_lead_somewhere(name):
     path = ROOT / f"{name}.md"
     for target in re.findall(r"\]\(([^)#]+)\)", path.read_text(encoding="utf-8")):
