@@ -1,0 +1,55 @@
+"""Is a matrix symmetric, and may it be positive definite? What its entries alone can tell."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from beltrami._arrays import Integers
+from beltrami._jit import kernel
+
+_EQUAL = 1e-14  # relative difference of a_ij and a_ji that counts as rounding
+
+
+def is_symmetric(matrix: csc_array) -> bool:
+    """Check a_ij = a_ji to rounding, beside the largest entry."""
+    difference = abs(matrix - matrix.T)
+    scale = abs(matrix.data).max(initial=0.0)
+    return difference.nnz == 0 or float(difference.max()) <= _EQUAL * scale
+
+
+def rows_against_definite(matrix: csc_array) -> Integers:
+    """Return rows that show that a matrix is not symmetric positive definite, or none.
+
+    Such a matrix has a_ii > 0, a_ij = a_ji (to rounding, beside the diagonal, so that units do not
+    count) and a_ij² <= a_ii a_jj. The first that fail are told: (i,) or (i, j). The rows of each
+    column are sorted, and none stands twice. Cost: one pass.
+    """
+    diagonal = matrix.diagonal()
+    wrong = np.flatnonzero(~(diagonal > 0))
+    if len(wrong):
+        return wrong[:1]
+    starts = matrix.indptr.astype(np.int64)
+    i, j = _first_misfit(starts, matrix.indices, matrix.data, np.sqrt(diagonal), starts[:-1].copy())
+    return np.array([i, j] if i >= 0 else [], np.int64)
+
+
+@kernel
+def _first_misfit(indptr: Any, indices: Any, data: Any, root: Any, at: Any) -> Any:
+    """Walk down each column; its entries meet their mirror images in the order of the columns.
+
+    ``at[i]`` is the next entry of column i that has not been met.
+    """
+    for j in range(at.size):
+        for q in range(indptr[j], indptr[j + 1]):
+            i = indices[q]
+            p = at[i]
+            at[i] = p + 1
+            if p == indptr[i + 1] or indices[p] != j:
+                return i, j
+            scale = root[i] * root[j]
+            if abs(data[p] - data[q]) > _EQUAL * scale or abs(data[q]) > (1 + 1e-12) * scale:
+                return i, j
+    return -1, -1
