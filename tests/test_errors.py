@@ -12,6 +12,7 @@ from beltrami.errors import (
     MeshError,
     MissingExtraError,
     NotManifoldError,
+    NotPositiveDefiniteError,
     SingularMatrixError,
     StepTooLongError,
     UnknownNameError,
@@ -22,7 +23,8 @@ EXAMPLES = (
     MeshError("bad", vertices=[3, 1], faces=[2], edges=[[0, 1]], remedy="Mend it."),
     NotManifoldError("bad", edges=np.array([[4, 5]])),
     StepTooLongError(2.0, 0.5),
-    SingularMatrixError("singular"),
+    SingularMatrixError("singular", rows=[7]),
+    NotPositiveDefiniteError([3, 4]),
     ConvergenceError("late"),
     UnknownNameError("weights", "cotan", ("cotangent", "distance")),
     FileFormatError("a.obj", "no number", line=7),
@@ -51,6 +53,7 @@ def test_all_names_every_error():
         (MeshError, ValueError),
         (StepTooLongError, ValueError),
         (SingularMatrixError, ValueError),
+        (NotPositiveDefiniteError, ValueError),
         (ConvergenceError, RuntimeError),
         (UnknownNameError, ValueError),
         (FileFormatError, ValueError),
@@ -65,7 +68,7 @@ def test_who_knows_only_python_catches_them_too(cls, also):
 def test_the_kinds_of_mesh_errors(name):
     cls = getattr(errors, name)
     others = (StepTooLongError, SingularMatrixError, ConvergenceError, UnknownNameError)
-    others += (FileFormatError, MissingExtraError, BeltramiError)
+    others += (FileFormatError, MissingExtraError, BeltramiError, NotPositiveDefiniteError)
     assert issubclass(cls, MeshError) != (cls in others)
 
 

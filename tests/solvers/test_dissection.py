@@ -5,6 +5,7 @@ from hypothesis import given
 from beltrami.errors import BeltramiError, DimensionError, NonFiniteError, UnknownNameError
 from beltrami.solvers.dissection import dissect
 from beltrami.solvers.elimination import eliminate
+from beltrami.solvers.factorize import factorize
 from beltrami.solvers.ordering import as_positions, order
 from definite_matrices import NAMED, arrow, as_columns, definite_matrices, grid
 
@@ -152,10 +153,10 @@ def test_what_is_refused():
     A = as_columns(grid(3, 3))
     for wrong in (np.zeros(9), np.zeros((9, 0)), np.zeros((8, 3))):
         with pytest.raises(DimensionError):
-            order(A, wrong, "auto")
+            factorize(A, wrong)
     with pytest.raises(NonFiniteError):
-        order(A, np.full((9, 3), np.nan), "auto")
+        factorize(A, np.full((9, 3), np.nan))
     with pytest.raises(BeltramiError, match="needs coordinates"):
         order(A, None, "positions")
     with pytest.raises(UnknownNameError):
-        order(A, None, "amd")
+        factorize(A, ordering="amd")

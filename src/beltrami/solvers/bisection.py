@@ -15,16 +15,16 @@ _ROUNDS = 3  # of averaging, which breaks the ties of whole numbers of steps
 @kernel
 def project_on_longest_direction(x: Any, order: Any, low: int, high: int, key: Any) -> None:
     """Write into key[t] the place of vertex order[t] along the first principal axis of its set."""
-    count = high - low
+    first, last, count = np.uint64(low), np.uint64(high), high - low
     a0 = a1 = a2 = 0.0
-    for t in range(low, high):
+    for t in range(first, last):
         v = order[t]
         a0 += x[v, 0]
         a1 += x[v, 1]
         a2 += x[v, 2]
     a0, a1, a2 = a0 / count, a1 / count, a2 / count
     xx = xy = xz = yy = yz = zz = 0.0
-    for t in range(low, high):
+    for t in range(first, last):
         v = order[t]
         p, q, r = x[v, 0] - a0, x[v, 1] - a1, x[v, 2] - a2
         xx, xy, xz = xx + p * p, xy + p * q, xz + p * r
@@ -35,7 +35,7 @@ def project_on_longest_direction(x: Any, order: Any, low: int, high: int, key: A
         length = np.sqrt(u * u + v * v + w * w)
         if length > 0:  # all points in one place: any direction will do
             p, q, r = u / length, v / length, w / length
-    for t in range(low, high):
+    for t in range(first, last):
         i = order[t]
         key[t] = p * x[i, 0] + q * x[i, 1] + r * x[i, 2]
 
@@ -43,25 +43,26 @@ def project_on_longest_direction(x: Any, order: Any, low: int, high: int, key: A
 @kernel
 def walk(
     indptr: Any, indices: Any, start: int, owner: Any, mine: int, level: Any, queue: Any, at: int
-) -> int:
+) -> Any:
     """Visit the part of a set that is connected to ``start``, nearest first.
 
     The set is where owner == mine, and level < 0 on it. Writes the vertices into queue[at:] and
     their steps from the start into level; returns the end in the queue.
     """
-    queue[at] = start
+    one = np.uint64(1)
+    next_, end = np.uint64(at), np.uint64(at) + one
+    queue[next_] = start
     level[start] = 0
-    end = at + 1
-    while at < end:
-        v = queue[at]
-        at += 1
-        for q in range(indptr[v], indptr[v + 1]):
-            w = indices[q]
+    while next_ < end:
+        v = queue[next_]
+        next_ += one
+        for q in range(indptr[v], indptr[v + one]):
+            w = np.uint64(indices[q])
             if owner[w] == mine and level[w] < 0:
                 level[w] = level[v] + 1
                 queue[end] = w
-                end += 1
-    return end
+                end += one
+    return np.int64(end)  # numba would make a float of signed and unsigned
 
 
 @kernel
@@ -85,27 +86,27 @@ def compare_steps(
     in queue[low:high]. Its last vertex is one end, the other is the last of a walk from there.
     Averaging the differences over the neighbours a few times makes the level lines smooth.
     """  # fmt: skip
-    start = queue[high - 1]
+    one, first, last = np.uint64(1), np.uint64(low), np.uint64(high)
+    start = queue[last - one]
     for _ in range(2):
-        for t in range(low, high):
+        for t in range(first, last):
             far[order[t]] = level[order[t]]
             level[order[t]] = -1
         walk(indptr, indices, start, owner, mine, level, queue, low)
-        start = queue[high - 1]
-    for t in range(low, high):
+        start = queue[last - one]
+    for t in range(first, last):
         v = order[t]
         value[v] = far[v] - level[v]
+        level[v] = -1
     for _ in range(_ROUNDS):
-        for t in range(low, high):
+        for t in range(first, last):
             v = order[t]
             total, count = value[v], 1
-            for q in range(indptr[v], indptr[v + 1]):
-                w = indices[q]
+            for q in range(indptr[v], indptr[v + one]):
+                w = np.uint64(indices[q])
                 if owner[w] == mine and w != v:
                     total += value[w]
                     count += 1
             key[t] = total / count
-        for t in range(low, high):
+        for t in range(first, last):
             value[order[t]] = key[t]
-    for t in range(low, high):
-        level[order[t]] = -1

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beltrami._arrays import Floats, Integers
-from beltrami._jit import kernel
+from beltrami._jit import kernel, unsigned
 from beltrami.solvers.bisection import compare_steps, project_on_longest_direction, walk
 
 LEAF = 32  # sets of this size are not cut further
@@ -54,20 +54,20 @@ def dissect(
     """
     n = len(indptr) - 1
     positions = np.zeros((0, 3)) if coordinates is None else coordinates
-    order, firsts, parents = _dissect(indptr, indices, positions, leaf)
+    order, firsts, parents = _dissect(unsigned(indptr), unsigned(indices), positions, leaf)
     rank = np.argsort(firsts)
     number = np.full(n + 1, -1, np.int64)
     number[firsts[rank]] = np.arange(len(rank))
     # parents are told by their first unknown; -1 reads the last number, which stays -1
-    return Dissection(order, np.append(firsts[rank], n), number[parents[rank]])
+    return Dissection(order.view(np.int64), np.append(firsts[rank], n), number[parents[rank]])
 
 
 @kernel
 def _dissect(indptr: Any, indices: Any, x: Any, leaf: int) -> Any:
     """Return the order, and the first unknown of each block and of its parent (-1: none)."""
     n = indptr.size - 1
-    order, key = np.arange(n), np.empty(n)
-    owner, moved = np.full(n, -1, np.int64), np.empty(n, np.int64)
+    order, key = np.arange(n).astype(np.uint64), np.empty(n)
+    owner, moved = np.full(n, -1, np.int64), np.empty(n, np.uint64)
     walks = n if x.shape[0] == 0 else 0
     level, far, value = np.full(walks, -1, np.int64), np.empty(walks, np.int64), np.empty(walks)
     tasks = np.empty((n, 3), np.int64)
@@ -154,24 +154,27 @@ def _part(
 @kernel
 def _select(key: Any, order: Any, low: int, high: int, place: int) -> None:
     """Reorder both arrays so that keys before the place are <= those from it on (C. Hoare)."""
-    while high - low > 1:
-        a, b, c = key[low], key[(low + high) // 2], key[high - 1]
+    one = np.uint64(1)
+    first, last, at = np.uint64(low), np.uint64(high - 1), np.uint64(place)
+    while first < last:
+        a, b, c = key[first], key[(first + last) // np.uint64(2)], key[last]
         pivot = max(min(a, b), min(max(a, b), c))
-        i, j = low, high - 1
-        while i <= j:
+        i, j = first, last + one  # j is one more than the place it stands for: it may pass 0
+        while i < j:
             while key[i] < pivot:
-                i += 1
-            while key[j] > pivot:
-                j -= 1
-            if i <= j:
-                key[i], key[j] = key[j], key[i]
-                order[i], order[j] = order[j], order[i]
-                i += 1
-                j -= 1
-        if place <= j:
-            high = j + 1
-        elif place >= i:
-            low = i
+                i += one
+            while key[j - one] > pivot:
+                j -= one
+            if i < j:
+                k = j - one
+                key[i], key[k] = key[k], key[i]
+                order[i], order[k] = order[k], order[i]
+                i += one
+                j -= one
+        if at < j:
+            last = j - one
+        elif at >= i:
+            first = i
         else:
             return
 
@@ -219,10 +222,11 @@ def _cut(
 ) -> int:
     """List the vertices of order[begin:end] that have a neighbour of another owner."""
     count = 0
-    for t in range(begin, end):
+    one = np.uint64(1)
+    for t in range(np.uint64(begin), np.uint64(end)):
         v = order[t]
-        for q in range(indptr[v], indptr[v + 1]):
-            if owner[indices[q]] == other:
+        for q in range(indptr[v], indptr[v + one]):
+            if owner[np.uint64(indices[q])] == other:
                 found[count] = v
                 count += 1
                 break

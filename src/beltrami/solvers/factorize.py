@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 from scipy.sparse import csc_array, issparse
 
+from beltrami._arrays import Floats
 from beltrami.errors import (
     BeltramiError,
     DimensionError,
@@ -23,7 +24,7 @@ from beltrami.solvers.symmetry import is_symmetric, rows_against_definite
 from beltrami.solvers.trial import SINGULAR, trial
 
 BACKENDS = ("auto", "cholesky", "superlu")
-SMALL = 3000  # unknowns below which SuperLU is as fast, and its code is loaded already
+SMALL = 5000  # unknowns below which SuperLU is as fast, and has no kernels to load
 
 
 def factorize(
@@ -46,7 +47,7 @@ def factorize(
     backend
         ``"cholesky"``: our own, for symmetric positive definite matrices.
         ``"superlu"``: LU with exchanges of rows, for every invertible matrix.
-        ``"auto"``: Cholesky for 3000 unknowns or more if the matrix turns out to be symmetric
+        ``"auto"``: Cholesky for 5000 unknowns or more if the matrix turns out to be symmetric
         positive definite, SuperLU for all others. The one used is told by ``Factor.backend``.
     ordering
         Of Cholesky: nested dissection by ``"positions"``, by the ``"graph"`` of the matrix, or
@@ -123,9 +124,7 @@ def _checked(A: Any) -> csc_array:
     return matrix
 
 
-def _by_cholesky(
-    matrix: csc_array, positions: ArrayLike | None, ordering: str, dtype: Any
-) -> Factor:
+def _by_cholesky(matrix: csc_array, positions: Floats | None, ordering: str, dtype: Any) -> Factor:
     """Factorise with Cholesky and try the factor on one right-hand side."""
     against = rows_against_definite(matrix)
     if len(against):

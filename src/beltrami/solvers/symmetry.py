@@ -8,7 +8,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from beltrami._arrays import Integers
-from beltrami._jit import kernel
+from beltrami._jit import kernel, unsigned
 
 _EQUAL = 1e-14  # relative difference of a_ij and a_ji that counts as rounding
 
@@ -31,8 +31,10 @@ def rows_against_definite(matrix: csc_array) -> Integers:
     wrong = np.flatnonzero(~(diagonal > 0))
     if len(wrong):
         return wrong[:1]
-    starts = matrix.indptr.astype(np.int64)
-    i, j = _first_misfit(starts, matrix.indices, matrix.data, np.sqrt(diagonal), starts[:-1].copy())
+    starts = matrix.indptr.astype(np.uint64)
+    i, j = _first_misfit(
+        starts, unsigned(matrix.indices), matrix.data, np.sqrt(diagonal), starts[:-1].copy()
+    )
     return np.array([i, j] if i >= 0 else [], np.int64)
 
 
@@ -42,14 +44,15 @@ def _first_misfit(indptr: Any, indices: Any, data: Any, root: Any, at: Any) -> A
 
     ``at[i]`` is the next entry of column i that has not been met.
     """
-    for j in range(at.size):
-        for q in range(indptr[j], indptr[j + 1]):
-            i = indices[q]
+    one = np.uint64(1)
+    for j in range(np.uint64(at.size)):
+        for q in range(indptr[j], indptr[j + one]):
+            i = np.uint64(indices[q])
             p = at[i]
-            at[i] = p + 1
-            if p == indptr[i + 1] or indices[p] != j:
-                return i, j
+            at[i] = p + one
+            if p == indptr[i + one] or np.uint64(indices[p]) != j:
+                return np.int64(i), np.int64(j)
             scale = root[i] * root[j]
             if abs(data[p] - data[q]) > _EQUAL * scale or abs(data[q]) > (1 + 1e-12) * scale:
-                return i, j
-    return -1, -1
+                return np.int64(i), np.int64(j)
+    return np.int64(-1), np.int64(-1)
