@@ -5,6 +5,7 @@ from __future__ import annotations
 from benchmarks.claims import Row
 from benchmarks.rows.adjacency import ADJACENCY
 from benchmarks.rows.assembly import ASSEMBLY
+from benchmarks.rows.factorizing import FACTORIZE, FACTORIZE_LARGE, SOLVE_3, SOLVE_64
 from benchmarks.rows.reading import READ_OBJ, READ_OFF, READ_PLY
 from benchmarks.rows.smoothing import SMOOTHING
 from benchmarks.rows.starting import FIRST_CALL, IMPORT
@@ -13,6 +14,10 @@ ROWS: tuple[Row, ...] = (
     ASSEMBLY,
     SMOOTHING,
     ADJACENCY,
+    FACTORIZE,
+    FACTORIZE_LARGE,
+    SOLVE_3,
+    SOLVE_64,
     READ_OBJ,
     READ_OFF,
     READ_PLY,
