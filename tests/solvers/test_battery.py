@@ -8,6 +8,7 @@ from beltrami.solvers.factorize import factorize
 from definite_matrices import NAMED, definite_matrices
 
 BACKENDS = [
+    ("ldl", {}),
     ("superlu", {}),
     ("cholesky", {"ordering": "graph"}),
     ("cholesky", {"coordinates": True}),

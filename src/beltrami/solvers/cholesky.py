@@ -1,6 +1,6 @@
-"""Our own sparse Cholesky factorisation, P S A S P' = L L', for symmetric positive definite A.
+"""Our own sparse Cholesky factorisation, P D A D P' = L L', for symmetric positive definite A.
 
-S is the nearest scaling by powers of two to a unit diagonal, which is exact and makes pivots
+D is the nearest scaling by powers of two to a unit diagonal, which is exact and makes pivots
 comparable; P orders by nested dissection; L is made of dense panels (``elimination``).
 """
 
@@ -21,7 +21,7 @@ from beltrami.solvers.elimination import Elimination
 from beltrami.solvers.fronts import factorize_fronts
 from beltrami.solvers.many import solve_many, solve_many_transposed
 from beltrami.solvers.one import solve_one, solve_one_transposed
-from beltrami.solvers.three import solve_three, solve_three_transposed
+from beltrami.solvers.three import enter, leave, solve_three, solve_three_transposed
 
 FEW = 7  # up to so many right-hand sides our own loops are faster than calls of BLAS
 _BLOCK = 128  # right-hand sides that go through BLAS at a time
@@ -30,7 +30,7 @@ _ROUNDING = {"float64": 1e-12, "float32": 1e-4}  # pivots smaller than this may 
 
 @dataclass(frozen=True, eq=False)
 class Cholesky:
-    """The factor L, with the order and the scaling.
+    """The factor L, with the order and the scaling; for indefinite A also with signs, L S L'.
 
     Attributes
     ----------
@@ -40,11 +40,14 @@ class Cholesky:
         The panels, in float64 or float32.
     scale
         (n,) powers of two, in the order of the matrix.
+    signs
+        (n,) of the pivots, in the order of elimination; None if all are positive.
     """
 
     elimination: Elimination
     values: NDArray[Any]
     scale: Floats
+    signs: Floats | None = None
 
     @property
     def fill(self) -> int:
@@ -60,7 +63,7 @@ class Cholesky:
 
     @cached_property
     def pivots(self) -> Floats:
-        """(n,) diagonal of L squared, in the order of elimination: in (0, 2], for the scaling."""
+        """(n,) sizes of the pivots: the diagonal of L squared, in the order of elimination."""
         shape = self.elimination
         columns = np.diff(shape.starts)
         height = columns + np.diff(shape.row_starts)
@@ -70,18 +73,24 @@ class Cholesky:
         return np.asarray(diagonal, dtype=np.float64) ** 2
 
     def logdet(self) -> float:
-        """Return log det A."""
+        """Return log abs det A."""
         return float(np.log(self.pivots).sum() - 2 * np.log(self.scale).sum())
+
+    @property
+    def inertia(self) -> tuple[int, int]:
+        """Numbers of positive and of negative pivots, which are those of eigenvalues."""
+        negative = 0 if self.signs is None else int((self.signs < 0).sum())
+        return len(self.scale) - negative, negative
 
     def solve(self, b: Floats) -> Floats:
         """Return x with A x = b, for (n,) or (n, c)."""
-        right = b[:, None] if b.ndim == 1 else b
+        right = np.ascontiguousarray(b[:, None] if b.ndim == 1 else b)
         x = np.empty(right.shape)
         count = right.shape[1]
         if count <= FEW:
             threes = count - count % 3
             for j in range(0, threes, 3):
-                x[:, j : j + 3] = self._solve_three(right[:, j : j + 3])
+                self._solve_three(right, j, x)
             for j in range(threes, count):
                 x[:, j] = self._solve_one(right[:, j])
         else:
@@ -99,18 +108,22 @@ class Cholesky:
         x = (self.scale * b)[shape.order].astype(self.values.dtype, copy=False)
         work = np.empty(shape.widest + shape.tallest, x.dtype)
         solve_one(*self._panels, x, work)
+        if self.signs is not None:
+            x *= self.signs
         solve_one_transposed(*self._panels, x, work)
         return x[shape.place] * self.scale
 
-    def _solve_three(self, b: Floats) -> Floats:
+    def _solve_three(self, b: Floats, j: int, result: Floats) -> None:
+        """Solve for three columns of b, from column j on, into those of the result."""
         shape = self.elimination
         x = np.empty((3, len(shape.order)), self.values.dtype)
-        for j in range(3):
-            x[j] = (self.scale * b[:, j])[shape.order]
+        enter(b, j, shape.order, self.scale, x)
         work = np.empty((3, shape.widest + shape.tallest), x.dtype)
         solve_three(*self._panels, x, work)
+        if self.signs is not None:
+            x *= self.signs
         solve_three_transposed(*self._panels, x, work)
-        return np.stack([row[shape.place] * self.scale for row in x], axis=1)
+        leave(x, shape.place, self.scale, j, result)
 
     def _solve_many(self, b: Floats) -> Floats:
         shape = self.elimination
@@ -118,6 +131,8 @@ class Cholesky:
         x *= self.scale[shape.order, None].astype(x.dtype)
         work = np.empty((shape.tallest, x.shape[1]), x.dtype)
         solve_many(*self._panels, blas(x.dtype), x, work)
+        if self.signs is not None:
+            x *= self.signs[:, None]
         solve_many_transposed(*self._panels, blas(x.dtype), x, work)
         return np.asarray(np.take(x, shape.place, axis=0) * self.scale[:, None])
 

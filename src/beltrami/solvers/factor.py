@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csc_array
 
 from beltrami._arrays import Floats, rectangular
-from beltrami.errors import ConvergenceError, DimensionError, NonFiniteError
+from beltrami.errors import BeltramiError, ConvergenceError, DimensionError, NonFiniteError
 
 REFINE_ABOVE = 1e-14  # backward error of a trial for which every solution is refined
 _ROUNDS = 20  # of refinement, at most
@@ -36,6 +36,11 @@ class Backend(Protocol):
 
     def logdet(self) -> float:
         """Return log abs det A."""
+        ...
+
+    @property
+    def inertia(self) -> tuple[int, int] | None:
+        """Numbers of positive and negative eigenvalues, where the factors tell."""
         ...
 
 
@@ -83,6 +88,31 @@ class Factor:
     def logdet(self) -> float:
         """Return log abs det A, the sum of the logarithms of the pivots."""
         return self._solver.logdet()
+
+    @property
+    def inertia(self) -> tuple[int, int]:
+        """Numbers of positive and of negative eigenvalues of A, by Sylvester's law.
+
+        With A = L - σB the second is the number of eigenvalues of (L, B) below σ.
+
+        Raises
+        ------
+        BeltramiError
+            If the factors do not tell: those of SuperLU.
+
+        Examples
+        --------
+        >>> import scipy.sparse
+        >>> from beltrami.solvers.factorize import factorize
+        >>> factorize(scipy.sparse.diags_array([2.0, -1.0, 3.0]), backend="ldl").inertia
+        (2, 1)
+        """
+        found = self._solver.inertia
+        if found is None:
+            raise BeltramiError(
+                f'the factors of {self.backend} do not tell the inertia: use backend="ldl"'
+            )
+        return found
 
     def solve(self, b: ArrayLike) -> Floats:
         """Solve A x = b for one right-hand side (n,) or several (n, c); several at once are faster.

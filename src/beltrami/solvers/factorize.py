@@ -14,16 +14,23 @@ from beltrami.errors import (
     DimensionError,
     NonFiniteError,
     NotPositiveDefiniteError,
+    SingularMatrixError,
     check_name,
 )
 from beltrami.solvers.cholesky import Cholesky, factorize_cholesky, singular
 from beltrami.solvers.factor import REFINE_ABOVE, Factor
+from beltrami.solvers.ldl import factorize_ldl, without_pivot
 from beltrami.solvers.ordering import ORDERINGS, as_positions, order
 from beltrami.solvers.superlu import factorize_superlu
-from beltrami.solvers.symmetry import is_symmetric, rows_against_definite
+from beltrami.solvers.symmetry import (
+    is_symmetric,
+    rows_against_definite,
+    rows_against_symmetric,
+)
 from beltrami.solvers.trial import SINGULAR, trial
 
-BACKENDS = ("auto", "cholesky", "superlu")
+BACKENDS = ("auto", "cholesky", "ldl", "superlu")
+WORTHLESS = 1e-9  # backward error of a trial of LDL beyond which refinement is not relied on
 SMALL = 5000  # unknowns below which SuperLU is as fast, and has no kernels to load
 
 
@@ -46,9 +53,12 @@ def factorize(
         solution does not depend on them but for its rounding.
     backend
         ``"cholesky"``: our own, for symmetric positive definite matrices.
+        ``"ldl"``: likewise without exchanges, for symmetric matrices of any signs; it counts them
+        (``Factor.inertia``).
         ``"superlu"``: LU with exchanges of rows, for every invertible matrix.
-        ``"auto"``: Cholesky for 5000 unknowns or more if the matrix turns out to be symmetric
-        positive definite, SuperLU for all others. The one used is told by ``Factor.backend``.
+        ``"auto"``: from 5000 unknowns on the first of Cholesky, LDL and SuperLU that the matrix
+        allows and whose trial solution is good; SuperLU below. The one used is told by
+        ``Factor.backend``.
     ordering
         Of Cholesky: nested dissection by ``"positions"``, by the ``"graph"`` of the matrix, or
         ``"auto"``: by positions if there are any and they cut well.
@@ -64,7 +74,7 @@ def factorize(
         If A or the coordinates have entries that are NaN or infinite.
     SingularMatrixError
         If A is singular to working precision; ``error.rows`` names the row without a pivot where
-        Cholesky found it.
+        Cholesky or LDL found it. LDL also raises it where only exchanges of rows would help.
     NotPositiveDefiniteError
         If Cholesky was asked for and A is not symmetric positive definite; ``error.rows``.
     UnknownNameError, BeltramiError
@@ -93,16 +103,29 @@ def factorize(
     if kind not in (np.float64, np.float32):
         raise BeltramiError(f"factors are float64 or float32, not {kind}")
     half = kind == np.float32
-    if half and backend == "superlu":
-        raise BeltramiError("SuperLU factorises in float64 only")
-    if backend == "cholesky" or half or (backend == "auto" and n >= SMALL):
+    if half and backend in ("ldl", "superlu"):
+        raise BeltramiError(f"{backend} factorises in float64 only")
+    if half or backend == "cholesky":
+        return _by_cholesky(matrix, positions, ordering, kind)
+    if backend == "ldl":
+        return _by_ldl(matrix, positions, ordering)
+    if backend == "superlu" or n < SMALL:
+        return Factor(matrix, "superlu", False, factorize_superlu(matrix, is_symmetric(matrix)))
+    return _first_that_fits(matrix, positions, ordering)
+
+
+def _first_that_fits(matrix: csc_array, positions: Floats | None, ordering: str) -> Factor:
+    """Try Cholesky, then LDL, then SuperLU, which exchanges rows and takes everything."""
+    try:
+        return _by_cholesky(matrix, positions, ordering, np.dtype(np.float64))
+    except NotPositiveDefiniteError:
+        symmetric = not len(rows_against_symmetric(matrix))
+    if symmetric:
         try:
-            return _by_cholesky(matrix, positions, ordering, kind)
-        except NotPositiveDefiniteError:
-            if backend == "cholesky" or half:
-                raise
-    solver = factorize_superlu(matrix, is_symmetric(matrix))
-    return Factor(matrix, "superlu", False, solver)
+            return _by_ldl(matrix, positions, ordering)
+        except SingularMatrixError:  # or it needs exchanges: SuperLU tells
+            return Factor(matrix, "superlu", False, factorize_superlu(matrix, symmetric))
+    return Factor(matrix, "superlu", False, factorize_superlu(matrix, symmetric))
 
 
 def _checked(A: Any) -> csc_array:
@@ -135,3 +158,19 @@ def _by_cholesky(matrix: csc_array, positions: Floats | None, ordering: str, dty
     if not condition < SINGULAR:
         raise singular(int(elimination.order[np.argmin(solver.pivots)]))
     return Factor(matrix, "cholesky", not error <= REFINE_ABOVE, solver)
+
+
+def _by_ldl(matrix: csc_array, positions: Floats | None, ordering: str) -> Factor:
+    """Factorise without exchanges and try the factor; it must be as good as one with them."""
+    pair = rows_against_symmetric(matrix)
+    if len(pair):
+        raise BeltramiError(
+            f"LDL needs a symmetric matrix: entries {pair.tolist()} and {pair[::-1].tolist()} "
+            'differ. Use backend="superlu"'
+        )
+    elimination = order(matrix, positions, ordering)
+    solver = factorize_ldl(matrix, elimination)
+    condition, error = trial(matrix, solver)
+    if not (condition < SINGULAR and error <= WORTHLESS):
+        raise without_pivot(int(elimination.order[np.argmin(solver.pivots)]))
+    return Factor(matrix, "ldl", not error <= REFINE_ABOVE, solver)

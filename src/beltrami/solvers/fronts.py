@@ -51,7 +51,7 @@ def factorize_fronts(
         for t in range(below):
             local[rows[row_starts[i] + t]] = columns + t
         panel = values[panels[i] : panels[i + 1]]
-        _enter(indptr, indices, data, scale, order, place, first, columns, height, local, panel)
+        enter(indptr, indices, data, scale, order, place, first, columns, height, local, panel)
         update = stack[top : top + below * below]
         update[:] = 0
         base = top
@@ -62,7 +62,7 @@ def factorize_fronts(
                 target[t] = local[rows[row_starts[child] + t]]
             at = stack_at[child]
             square = stack[at : at + count * count]
-            _add(
+            add(
                 square,
                 np.uint64(count),
                 target,
@@ -90,7 +90,7 @@ def factorize_fronts(
 
 
 @kernel
-def _enter(
+def enter(
     indptr: Any,
     indices: Any,
     data: Any,
@@ -116,7 +116,7 @@ def _enter(
 
 
 @kernel
-def _add(
+def add(
     square: Any, count: Any, target: Any, columns: Any, below: Any, panel: Any, update: Any
 ) -> None:
     """Add the lower triangle of a child's update to its parent's panel and update.

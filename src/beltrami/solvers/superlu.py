@@ -34,6 +34,11 @@ class SuperLU:
         """Bytes of the entries, and of their rows."""
         return 12 * self.fill
 
+    @property
+    def inertia(self) -> None:
+        """Rows were exchanged: the pivots do not tell."""
+        return
+
     def solve(self, b: Floats) -> Floats:
         """Return x with A x = b, for (n,) or (n, c)."""
         return np.asarray(self.factors.solve(b))

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csc_array
 
-from beltrami._arrays import Integers
+from beltrami._arrays import Floats, Integers
 from beltrami._jit import kernel, unsigned
 
 _EQUAL = 1e-14  # relative difference of a_ij and a_ji that counts as rounding
@@ -31,15 +31,35 @@ def rows_against_definite(matrix: csc_array) -> Integers:
     wrong = np.flatnonzero(~(diagonal > 0))
     if len(wrong):
         return wrong[:1]
+    return _misfit(matrix, np.sqrt(diagonal), True)
+
+
+def rows_against_symmetric(matrix: csc_array) -> Integers:
+    """Return the first pair (i, j) with different a_ij and a_ji, or none.
+
+    The difference counts beside the largest entries of row i and row j.
+    """
+    return _misfit(matrix, np.sqrt(largest_entries(matrix)), False)
+
+
+def largest_entries(matrix: csc_array) -> Floats:
+    """Return the largest absolute value of each row; 1 where there is none."""
+    largest = np.zeros(matrix.shape[0])
+    np.maximum.at(largest, matrix.indices, np.abs(matrix.data))
+    largest[largest == 0] = 1
+    return largest
+
+
+def _misfit(matrix: csc_array, root: Floats, definite: bool) -> Integers:
     starts = matrix.indptr.astype(np.uint64)
     i, j = _first_misfit(
-        starts, unsigned(matrix.indices), matrix.data, np.sqrt(diagonal), starts[:-1].copy()
+        starts, unsigned(matrix.indices), matrix.data, root, starts[:-1].copy(), definite
     )
     return np.array([i, j] if i >= 0 else [], np.int64)
 
 
 @kernel
-def _first_misfit(indptr: Any, indices: Any, data: Any, root: Any, at: Any) -> Any:
+def _first_misfit(indptr: Any, indices: Any, data: Any, root: Any, at: Any, definite: bool) -> Any:
     """Walk down each column; its entries meet their mirror images in the order of the columns.
 
     ``at[i]`` is the next entry of column i that has not been met.
@@ -53,6 +73,7 @@ def _first_misfit(indptr: Any, indices: Any, data: Any, root: Any, at: Any) -> A
             if p == indptr[i + one] or np.uint64(indices[p]) != j:
                 return np.int64(i), np.int64(j)
             scale = root[i] * root[j]
-            if abs(data[p] - data[q]) > _EQUAL * scale or abs(data[q]) > (1 + 1e-12) * scale:
+            large = definite and abs(data[q]) > (1 + 1e-12) * scale
+            if large or abs(data[p] - data[q]) > _EQUAL * scale:
                 return np.int64(i), np.int64(j)
     return np.int64(-1), np.int64(-1)
