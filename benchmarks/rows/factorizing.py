@@ -137,6 +137,7 @@ FACTORIZE = Row(
     contenders=factorizing,
     goals=(Goal(0.4, against=CHOLMOD),),
     difference=difference,
+    runs=3,
 )
 
 FACTORIZE_LARGE = Row(

@@ -19,7 +19,7 @@ from beltrami.errors import NotPositiveDefiniteError, SingularMatrixError
 from beltrami.solvers.blas import blas
 from beltrami.solvers.elimination import Elimination
 from beltrami.solvers.fronts import factorize_fronts
-from beltrami.solvers.many import solve_many, solve_many_transposed
+from beltrami.solvers.many import enter_many, leave_many, solve_many, solve_many_transposed
 from beltrami.solvers.one import solve_one, solve_one_transposed
 from beltrami.solvers.three import enter, leave, solve_three, solve_three_transposed
 
@@ -95,7 +95,7 @@ class Cholesky:
                 x[:, j] = self._solve_one(right[:, j])
         else:
             for j in range(0, count, _BLOCK):
-                x[:, j : j + _BLOCK] = self._solve_many(right[:, j : j + _BLOCK])
+                self._solve_many(right, j, x)
         return x[:, 0] if b.ndim == 1 else x
 
     @property
@@ -125,16 +125,17 @@ class Cholesky:
         solve_three_transposed(*self._panels, x, work)
         leave(x, shape.place, self.scale, j, result)
 
-    def _solve_many(self, b: Floats) -> Floats:
+    def _solve_many(self, b: Floats, j: int, result: Floats) -> None:
+        """Solve for a block of columns of b, from column j on, into those of the result."""
         shape = self.elimination
-        x = np.take(b, shape.order, axis=0).astype(self.values.dtype, copy=False)
-        x *= self.scale[shape.order, None].astype(x.dtype)
+        x = np.empty((len(shape.order), min(_BLOCK, b.shape[1] - j)), self.values.dtype)
+        enter_many(b, j, shape.order, self.scale, x)
         work = np.empty((shape.tallest, x.shape[1]), x.dtype)
         solve_many(*self._panels, blas(x.dtype), x, work)
         if self.signs is not None:
             x *= self.signs[:, None]
         solve_many_transposed(*self._panels, blas(x.dtype), x, work)
-        return np.asarray(np.take(x, shape.place, axis=0) * self.scale[:, None])
+        leave_many(x, shape.place, self.scale, j, result)
 
 
 def factorize_cholesky(

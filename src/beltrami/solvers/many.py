@@ -4,10 +4,31 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from beltrami._jit import kernel
 from beltrami.solvers.blas import N, T, divide_right, multiply
 
 _ONE, _MINUS, _ZERO = range(3)  # places of the scalars
+
+
+@kernel
+def enter_many(b: Any, j: int, order: Any, scale: Any, x: Any) -> None:
+    """Bring columns of b (n, c), from j on, into the order of elimination, scaled: x (n, k)."""
+    for t in range(x.shape[0]):
+        i = np.uint64(order[t])
+        source, to, s = b[i], x[t], scale[i]
+        for k in range(x.shape[1]):
+            to[k] = source[np.uint64(j + k)] * s
+
+
+@kernel
+def leave_many(x: Any, place: Any, scale: Any, j: int, result: Any) -> None:
+    """Bring x (n, k) back, into the columns of the result (n, c) from j on."""
+    for i in range(place.size):
+        source, to, s = x[np.uint64(place[i])], result[i], scale[i]
+        for k in range(x.shape[1]):
+            to[np.uint64(j + k)] = source[k] * s
 
 
 @kernel
