@@ -160,3 +160,18 @@ def test_what_is_refused():
         order(A, None, "positions")
     with pytest.raises(UnknownNameError):
         factorize(A, ordering="amd")
+
+
+@pytest.mark.parametrize("name", NAMED)
+def test_the_stack_holds_the_updates_that_wait(name):
+    """Its height, by running the stack: a block pushes its square and removes its children's."""
+    A = NAMED[name]()
+    dissection = dissect(*_pattern(A), None, 4)
+    found = eliminate(*_pattern(A), dissection)
+    squares = np.diff(found.row_starts) ** 2
+    waiting, highest = {}, 0
+    for i, square in enumerate(squares.tolist()):
+        highest = max(highest, sum(waiting.values()) + square)
+        waiting = {k: v for k, v in waiting.items() if dissection.parents[k] != i}
+        waiting[i] = square
+    assert found.stack == highest
