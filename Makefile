@@ -37,6 +37,7 @@ bench:  ## against the peers, in an environment of their own; writes BENCHMARKS.
 	$(PYTHON) -m venv .venv-bench
 	.venv-bench/bin/python -m pip install --quiet --upgrade "pip>=25.1"
 	.venv-bench/bin/python -m pip install --quiet --editable ".[all]" --group bench
+	-.venv-bench/bin/python -m pip install --quiet --group bench-cholmod  # Debian: libsuitesparse-dev
 	.venv-bench/bin/python -m benchmarks
 
 clean:

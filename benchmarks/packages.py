@@ -8,6 +8,7 @@ from typing import Any
 
 DISTRIBUTIONS = (
     "beltrami",
+    "cholespy",
     "gpytoolbox",
     "lapy",
     "libigl",
@@ -16,6 +17,7 @@ DISTRIBUTIONS = (
     "pymeshlab",
     "pyvista",
     "robust_laplacian",
+    "scikit-sparse",
     "trimesh",
     "vtk",
     "numpy",

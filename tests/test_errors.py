@@ -13,6 +13,7 @@ from beltrami.errors import (
     MissingExtraError,
     NotDifferentiableError,
     NotManifoldError,
+    NotPositiveDefiniteError,
     RankLossError,
     SingularMatrixError,
     StepTooLongError,
@@ -25,7 +26,8 @@ EXAMPLES = (
     MeshError("bad", vertices=[3, 1], faces=[2], edges=[[0, 1]], remedy="Mend it."),
     NotManifoldError("bad", edges=np.array([[4, 5]])),
     StepTooLongError(2.0, 0.5),
-    SingularMatrixError("singular"),
+    SingularMatrixError("singular", rows=[7]),
+    NotPositiveDefiniteError([3, 4]),
     ConvergenceError("late"),
     UnknownNameError("weights", "cotan", ("cotangent", "distance")),
     FileFormatError("a.obj", "no number", line=7),
@@ -55,6 +57,7 @@ def test_all_names_every_error():
         (MeshError, ValueError),
         (StepTooLongError, ValueError),
         (SingularMatrixError, ValueError),
+        (NotPositiveDefiniteError, ValueError),
         (ConvergenceError, RuntimeError),
         (UnknownNameError, ValueError),
         (FileFormatError, ValueError),
@@ -70,7 +73,7 @@ def test_who_knows_only_python_catches_them_too(cls, also):
 def test_the_kinds_of_mesh_errors(name):
     cls = getattr(errors, name)
     others = (StepTooLongError, SingularMatrixError, ConvergenceError, UnknownNameError)
-    others += (FileFormatError, MissingExtraError, BeltramiError)
+    others += (FileFormatError, MissingExtraError, BeltramiError, NotPositiveDefiniteError)
     others += (SurfaceError, RankLossError, NotDifferentiableError)
     assert issubclass(cls, MeshError) != (cls in others)
 

@@ -30,3 +30,16 @@ def unsigned(indices: NDArray[Any]) -> NDArray[Any]:
     end; in loops that do little else this costs up to half of the time.
     """
     return indices.view(indices.dtype.str.replace("i", "u"))
+
+
+def summing_kernel(function: Function) -> Function:
+    """Compile like ``kernel``, and let sums be formed in lanes, as the processor likes them.
+
+    The order of a sum is chosen when the kernel is compiled: the same input gives the same bits
+    on one machine, but not on another kind of processor.
+    """
+    lanes = {"reassoc", "contract", "nsz"}
+    try:
+        return cast(Function, numba.njit(cache=True, nogil=True, fastmath=lanes)(function))
+    except RuntimeError:
+        return cast(Function, numba.njit(nogil=True, fastmath=lanes)(function))

@@ -24,6 +24,7 @@ __all__ = [
     "NotDifferentiableError",
     "NotManifoldError",
     "NotOrientableError",
+    "NotPositiveDefiniteError",
     "RankLossError",
     "SingularMatrixError",
     "StepTooLongError",
@@ -167,7 +168,22 @@ class StepTooLongError(BeltramiError, ValueError):
 
 
 class SingularMatrixError(BeltramiError, ValueError):
-    """A matrix to factorise is singular (to working precision)."""
+    """A matrix to factorise is singular (to working precision); ``rows`` are without a pivot."""
+
+    def __init__(self, problem: str, rows: ArrayLike = ()) -> None:
+        self.rows = np.asarray(rows, dtype=np.int64).reshape(-1)
+        super().__init__(problem)
+
+
+class NotPositiveDefiniteError(BeltramiError, ValueError):
+    """A matrix is not symmetric positive definite; ``rows`` show it."""
+
+    def __init__(self, rows: ArrayLike) -> None:
+        self.rows = np.asarray(rows, dtype=np.int64).reshape(-1)
+        super().__init__(
+            f"the matrix is not symmetric positive definite ({_named('rows', self.rows)}). "
+            'factorize(A, backend="superlu") takes every invertible matrix'
+        )
 
 
 class ConvergenceError(BeltramiError, RuntimeError):

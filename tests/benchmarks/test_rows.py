@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 from benchmarks.cases import Case
 from benchmarks.claims import BEST_PEER, Row
-from benchmarks.rows import ROWS, adjacency, assembly, reading, smoothing
+from benchmarks.rows import ROWS, adjacency, assembly, factorizing, reading, smoothing
 from scipy.sparse import csc_array, csr_array, diags_array
+
+import beltrami as bt
 
 V = np.array([[0.0, 0, 0], [1.25, 0, 0], [0, -1.5, 0], [0, 0, 1e-3]])
 F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
@@ -102,3 +104,15 @@ def test_reading_sees_a_wrong_number_and_a_wrong_face() -> None:
     )  # of 1.5
     assert reading.difference((V, F), (V, F[::-1])) == np.inf
     assert reading.difference((V, F), (V[:3], F)) == np.inf
+
+
+def test_factorizing_solves_a_step_of_heat(tmp_path: Path) -> None:
+    A = factorizing.step_of_heat(V, F).toarray()
+    h = np.mean([np.linalg.norm(V[i] - V[j]) for i in range(4) for j in range(i)])
+    L, B = (getattr(bt.laplacian(bt.Mesh(V, F)), name).toarray() for name in ("stiffness", "mass"))
+    np.testing.assert_allclose(A, B + 100 * h**2 * L)
+    for count, make in ((3, factorizing.solving(3)), (64, factorizing.solving_64)):
+        b = factorizing.right_hand_sides(4, count)
+        for one in make(tetrahedron(tmp_path))[:2]:  # the others need not be installed
+            np.testing.assert_allclose(A @ one.run(one.prepare()), b, atol=1e-8)
+    assert factorizing.difference(V, V + np.array([0, 0.15, 0])) == pytest.approx(0.1)

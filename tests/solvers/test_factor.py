@@ -2,7 +2,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from scipy.sparse import csr_array
+from scipy.sparse import csc_array, csr_array
 
 from beltrami.errors import DimensionError, NonFiniteError
 from beltrami.solvers.factor import Factor
@@ -51,7 +51,7 @@ def test_values_that_are_not_finite_are_blamed_on_whom_they_come_from():
     with pytest.raises(NonFiniteError, match="right-hand side"):
         factorize(csr_array(A)).solve([0, np.inf, 1])
     with pytest.raises(NonFiniteError, match="solution"):
-        Factor(3, "fake", 0, _Zeros()).solve([1, 2, 3])
+        Factor(csc_array(A), "fake", False, _Zeros()).solve([1, 2, 3])
 
 
 def test_frozen_and_described():

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
-from beltrami._arrays import Floats, Integers, as_function, as_indices
+from beltrami._arrays import Booleans, Floats, Integers, as_function, as_indices
 from beltrami._progress import Progress, stages
 from beltrami.errors import BeltramiError, StepTooLongError, check_name
+from beltrami.mesh.mesh import Mesh
 from beltrami.operators.pair import Laplacian
 from beltrami.solvers.factorize import factorize
 
@@ -119,7 +120,7 @@ def _implicit(
         return f.copy()
     inner = matrix if free.all() else csr_array(matrix[free][:, free])
     outer = matrix[free][:, ~free] @ f[~free]
-    factor = factorize(inner)
+    factor = factorize(inner, _positions(laplacian, free))
     result = f.copy()
     for _ in stages(steps, progress):
         result[free] = factor.solve((laplacian.mass @ result)[free] - outer)
@@ -141,9 +142,16 @@ def _explicit(
         return f.copy()
     result = f.copy()
     whole = laplacian.mass_kind == "consistent"
-    mass = factorize(csr_array(laplacian.mass[free][:, free])) if whole else None
+    inner = csr_array(laplacian.mass[free][:, free])
+    mass = factorize(inner, _positions(laplacian, free)) if whole else None
     scale = (delta / laplacian.masses[free])[(...,) + (None,) * (f.ndim - 1)]
     for _ in stages(steps, progress):
         flow = (laplacian.stiffness @ result)[free]
         result[free] -= scale * flow if mass is None else delta * mass.solve(flow)
     return result
+
+
+def _positions(laplacian: Laplacian, chosen: Booleans) -> Floats | None:
+    """Return where the chosen vertices are, if the pair comes from a mesh."""
+    domain = laplacian.domain
+    return domain.vertices[chosen] if isinstance(domain, Mesh) else None

@@ -111,9 +111,9 @@ class HeatMethod(Frozen):
             _labels=labels,
             _free=free,
             _inner=inner,
-            _heat=factorize(step),
-            _cold=None if inner.all() or not inner.any() else _restricted(step, inner),
-            _poisson=_restricted(pair.stiffness, free),
+            _heat=factorize(step, mesh.vertices),
+            _cold=None if inner.all() or not inner.any() else _restricted(step, inner, mesh),
+            _poisson=_restricted(pair.stiffness, free, mesh),
         )
 
     _faces: Integers
@@ -180,8 +180,8 @@ def _weights(mesh: Mesh, intrinsic: bool) -> str:
     return "intrinsic_delaunay" if plain else "tufted"
 
 
-def _restricted(matrix: csr_array, kept: Booleans) -> Factor:
-    return factorize(csr_array(matrix[kept][:, kept]))
+def _restricted(matrix: csr_array, kept: Booleans, mesh: Mesh) -> Factor:
+    return factorize(csr_array(matrix[kept][:, kept]), mesh.vertices[kept])
 
 
 def _mean_edge(triangles: Mesh | IntrinsicTriangulation) -> float:

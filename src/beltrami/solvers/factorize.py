@@ -5,17 +5,43 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, DTypeLike
 from scipy.sparse import csc_array, issparse
 
-from beltrami.errors import DimensionError, NonFiniteError, check_name
-from beltrami.solvers.factor import Factor
+from beltrami._arrays import Floats
+from beltrami.errors import (
+    BeltramiError,
+    DimensionError,
+    NonFiniteError,
+    NotPositiveDefiniteError,
+    SingularMatrixError,
+    check_name,
+)
+from beltrami.solvers.cholesky import Cholesky, factorize_cholesky, singular
+from beltrami.solvers.factor import REFINE_ABOVE, Factor
+from beltrami.solvers.ldl import factorize_ldl, without_pivot
+from beltrami.solvers.ordering import ORDERINGS, as_positions, order
 from beltrami.solvers.superlu import factorize_superlu
+from beltrami.solvers.symmetry import (
+    is_symmetric,
+    rows_against_definite,
+    rows_against_symmetric,
+)
+from beltrami.solvers.trial import SINGULAR, trial
 
-BACKENDS = ("auto", "superlu")
+BACKENDS = ("auto", "cholesky", "ldl", "superlu")
+WORTHLESS = 1e-9  # backward error of a trial of LDL beyond which refinement is not relied on
+SMALL = 5000  # unknowns below which SuperLU is as fast, and has no kernels to load
 
 
-def factorize(A: Any, coordinates: ArrayLike | None = None, backend: str = "auto") -> Factor:
+def factorize(
+    A: Any,
+    coordinates: ArrayLike | None = None,
+    backend: str = "auto",
+    *,
+    ordering: str = "auto",
+    dtype: DTypeLike = np.float64,
+) -> Factor:
     """Factorise a square sparse matrix, to solve with it many times.
 
     Chapter items: P41.
@@ -25,25 +51,43 @@ def factorize(A: Any, coordinates: ArrayLike | None = None, backend: str = "auto
     A
         (n, n) scipy sparse matrix or array.
     coordinates
-        (n, d) positions of the unknowns, for backends that order by them; SuperLU does not.
+        (n, d) positions of the unknowns, by which Cholesky orders: it is faster with them. The
+        solution does not depend on them but for its rounding.
     backend
-        ``"auto"`` or ``"superlu"``. The one used is told by ``Factor.backend``.
+        ``"cholesky"``: our own, for symmetric positive definite matrices.
+        ``"ldl"``: likewise without exchanges, for symmetric matrices of any signs; it counts them
+        (``Factor.inertia``).
+        ``"superlu"``: LU with exchanges of rows, for every invertible matrix.
+        ``"auto"``: from 5000 unknowns on the first of Cholesky, LDL and SuperLU that the matrix
+        allows and whose trial solution is good; SuperLU below. The one used is told by
+        ``Factor.backend``.
+    ordering
+        Of Cholesky: nested dissection by ``"positions"``, by the ``"graph"`` of the matrix, or
+        ``"auto"``: by positions if there are any and they cut well.
+    dtype
+        float64, or float32 for a Cholesky factor of half the memory; solutions are then refined
+        to the residuals of float64, or refused where the matrix is too nearly singular for that.
 
     Raises
     ------
     DimensionError
         If A is not sparse and square, or ``coordinates`` has not n rows.
     NonFiniteError
-        If A has entries that are NaN or infinite.
+        If A or the coordinates have entries that are NaN or infinite.
     SingularMatrixError
-        If A is singular to working precision.
-    UnknownNameError
-        If there is no such backend.
+        If A is singular to working precision; ``error.rows`` names the row without a pivot where
+        Cholesky or LDL found it. LDL also raises it where only exchanges of rows would help.
+    NotPositiveDefiniteError
+        If Cholesky was asked for and A is not symmetric positive definite; ``error.rows``.
+    UnknownNameError, BeltramiError
+        If there is no such backend, ordering or dtype.
 
     Notes
     -----
-    Symmetric matrices are ordered by minimum degree on A' + A. On a surface mesh the cost is
-    about n^1.5 operations and n log n memory.
+    Cholesky is supernodal and multifrontal, over the BLAS of scipy; SuperLU orders symmetric
+    matrices by minimum degree on A' + A. On a surface mesh the cost is about n^1.5 operations and
+    n log n memory. One trial solve is part of it: it tells singular matrices, and whether
+    solutions need refinement.
 
     Examples
     --------
@@ -53,6 +97,41 @@ def factorize(A: Any, coordinates: ArrayLike | None = None, backend: str = "auto
     ([0.090909, 0.636364], 'superlu')
     """
     check_name("backend", backend, BACKENDS)
+    check_name("ordering", ordering, ORDERINGS)
+    matrix = _checked(A)
+    n = matrix.shape[0]
+    positions = None if coordinates is None else as_positions(coordinates, n)
+    kind = np.dtype(dtype)
+    if kind not in (np.float64, np.float32):
+        raise BeltramiError(f"factors are float64 or float32, not {kind}")
+    half = kind == np.float32
+    if half and backend in ("ldl", "superlu"):
+        raise BeltramiError(f"{backend} factorises in float64 only")
+    if half or backend == "cholesky":
+        return _by_cholesky(matrix, positions, ordering, kind)
+    if backend == "ldl":
+        return _by_ldl(matrix, positions, ordering)
+    if backend == "superlu" or n < SMALL:
+        return Factor(matrix, "superlu", False, factorize_superlu(matrix, is_symmetric(matrix)))
+    return _first_that_fits(matrix, positions, ordering)
+
+
+def _first_that_fits(matrix: csc_array, positions: Floats | None, ordering: str) -> Factor:
+    """Try Cholesky, then LDL, then SuperLU, which exchanges rows and takes everything."""
+    try:
+        return _by_cholesky(matrix, positions, ordering, np.dtype(np.float64))
+    except NotPositiveDefiniteError:
+        symmetric = not len(rows_against_symmetric(matrix))
+    if symmetric:
+        try:
+            return _by_ldl(matrix, positions, ordering)
+        except SingularMatrixError:  # or it needs exchanges: SuperLU tells
+            return Factor(matrix, "superlu", False, factorize_superlu(matrix, symmetric))
+    return Factor(matrix, "superlu", False, factorize_superlu(matrix, symmetric))
+
+
+def _checked(A: Any) -> csc_array:
+    """Return the matrix by columns, rows sorted, every entry once and not zero."""
     shape: tuple[int, ...] = getattr(A, "shape", ())
     if not issparse(A) or len(shape) != 2 or shape[0] != shape[1]:
         what = shape or type(A).__name__
@@ -61,13 +140,39 @@ def factorize(A: Any, coordinates: ArrayLike | None = None, backend: str = "auto
     if not shape[0] or given.dtype.kind not in "biuf":
         raise DimensionError("a matrix to factorise is real, and not empty")
     matrix = csc_array(given, dtype=np.float64)
-    n = matrix.shape[0]
-    if coordinates is not None and len(np.asarray(coordinates)) != n:
-        raise DimensionError(f"coordinates have not {n} rows")
     if not np.isfinite(matrix.data).all():
         raise NonFiniteError("the matrix has entries that are NaN or infinite")
-    difference = abs(matrix - matrix.T)
-    scale = abs(matrix.data).max(initial=0.0)
-    symmetric = difference.nnz == 0 or float(difference.max()) <= 1e-14 * scale
-    solver = factorize_superlu(matrix, symmetric)
-    return Factor(n, "superlu", int(solver.nnz), solver)
+    if not matrix.has_canonical_format or not matrix.data.all():
+        matrix = matrix.copy()
+        matrix.sum_duplicates()
+        matrix.eliminate_zeros()
+    return matrix
+
+
+def _by_cholesky(matrix: csc_array, positions: Floats | None, ordering: str, dtype: Any) -> Factor:
+    """Factorise with Cholesky and try the factor on one right-hand side."""
+    against = rows_against_definite(matrix)
+    if len(against):
+        raise NotPositiveDefiniteError(against)
+    elimination = order(matrix, positions, ordering)
+    solver: Cholesky = factorize_cholesky(matrix, elimination, dtype)
+    condition, error = trial(matrix, solver)
+    if not condition < SINGULAR:
+        raise singular(int(elimination.order[np.argmin(solver.pivots)]))
+    return Factor(matrix, "cholesky", not error <= REFINE_ABOVE, solver)
+
+
+def _by_ldl(matrix: csc_array, positions: Floats | None, ordering: str) -> Factor:
+    """Factorise without exchanges and try the factor; it must be as good as one with them."""
+    pair = rows_against_symmetric(matrix)
+    if len(pair):
+        raise BeltramiError(
+            f"LDL needs a symmetric matrix: entries {pair.tolist()} and {pair[::-1].tolist()} "
+            'differ. Use backend="superlu"'
+        )
+    elimination = order(matrix, positions, ordering)
+    solver = factorize_ldl(matrix, elimination)
+    condition, error = trial(matrix, solver)
+    if not (condition < SINGULAR and error <= WORTHLESS):
+        raise without_pivot(int(elimination.order[np.argmin(solver.pivots)]))
+    return Factor(matrix, "ldl", not error <= REFINE_ABOVE, solver)

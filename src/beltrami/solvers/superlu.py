@@ -3,21 +3,53 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import MatrixRankWarning, splu
 
+from beltrami._arrays import Floats
 from beltrami.errors import SingularMatrixError
+from beltrami.solvers.symmetry import rows_against_definite
+from beltrami.solvers.trial import SINGULAR, trial
 
 _BACKWARD_ERROR = 1e-14  # more than this, and pivots were needed
-_CONDITION = 2e14  # more than this, and the matrix is singular to working precision
-_SEED = 306_519_227
 
 
-def factorize_superlu(matrix: csc_array, symmetric: bool) -> Any:
-    """Return scipy's SuperLU object, tried on one right-hand side.
+@dataclass(frozen=True, eq=False)
+class SuperLU:
+    """The factors L and U of the permuted matrix; ``factors`` is scipy's object."""
+
+    factors: Any
+
+    @property
+    def fill(self) -> int:
+        """Number of entries of L and U."""
+        return int(self.factors.nnz)
+
+    @property
+    def memory(self) -> int:
+        """Bytes of the entries, and of their rows."""
+        return 12 * self.fill
+
+    @property
+    def inertia(self) -> None:
+        """Rows were exchanged: the pivots do not tell."""
+        return
+
+    def solve(self, b: Floats) -> Floats:
+        """Return x with A x = b, for (n,) or (n, c)."""
+        return np.asarray(self.factors.solve(b))
+
+    def logdet(self) -> float:
+        """Return log abs det A."""
+        return float(np.log(np.abs(self.factors.U.diagonal())).sum())
+
+
+def factorize_superlu(matrix: csc_array, symmetric: bool) -> SuperLU:
+    """Factorise with SuperLU, and try the factors on one right-hand side.
 
     Symmetric matrices are first factorised with their diagonal as pivots, which keeps the fill
     low and is stable for definite ones; if the trial shows that it was not, rows are exchanged.
@@ -28,18 +60,18 @@ def factorize_superlu(matrix: csc_array, symmetric: bool) -> Any:
         If a pivot is zero, or the solution of the trial grows as it does only for a singular
         matrix.
     """
-    if symmetric and _may_be_definite(matrix):
+    if symmetric and not len(rows_against_definite(matrix)):
         factor = _splu(
             matrix,
             permc_spec="MMD_AT_PLUS_A",
             diag_pivot_thresh=0.0,
             options={"SymmetricMode": True},
         )
-        condition, error = _trial(matrix, factor)
-        if condition < _CONDITION and error <= _BACKWARD_ERROR:
+        condition, error = trial(matrix, factor)
+        if factor and condition < SINGULAR and error <= _BACKWARD_ERROR:
             return factor
     factor = _splu(matrix)
-    if not _trial(matrix, factor)[0] < _CONDITION:
+    if not factor or not trial(matrix, factor)[0] < SINGULAR:
         raise SingularMatrixError(
             "the matrix is singular to working precision: a stiffness alone is, because it maps "
             "constants to zero. Add a mass, or fix a value"
@@ -47,41 +79,11 @@ def factorize_superlu(matrix: csc_array, symmetric: bool) -> Any:
     return factor
 
 
-def _may_be_definite(matrix: csc_array) -> bool:
-    """Check what every positive definite matrix satisfies: a_ij² <= a_ii a_jj, a_ii > 0."""
-    diagonal = matrix.diagonal()
-    if not (diagonal > 0).all():
-        return False
-    entries = matrix.tocoo()
-    scale = diagonal[entries.row] * diagonal[entries.col]
-    return bool((entries.data**2 <= scale * (1 + 1e-12)).all())
-
-
-def _splu(matrix: csc_array, **options: Any) -> Any:
+def _splu(matrix: csc_array, **options: Any) -> SuperLU | None:
     """Return the factors, or None if a pivot is exactly zero."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error", MatrixRankWarning)
-            return splu(matrix, **options)
+            return SuperLU(splu(matrix, **options))
     except (RuntimeError, MatrixRankWarning):
         return None
-
-
-def _trial(matrix: csc_array, factor: Any) -> tuple[float, float]:
-    """Solve for a random right-hand side: a bound from below on the condition, backward error.
-
-    Both are infinite where there is no factor.
-    """
-    if factor is None:
-        return np.inf, np.inf
-    n = matrix.shape[0]
-    diagonal = np.abs(matrix.diagonal())
-    scale = np.sqrt(np.where(diagonal > 0, diagonal, 1))  # of the unknowns: units do not count
-    b = 1 + np.random.default_rng(_SEED).standard_normal(n) / 2  # rich in constants
-    entries = matrix.tocoo()
-    scaled = np.abs(entries.data) / scale[entries.row] / scale[entries.col]
-    with np.errstate(all="ignore"):
-        x = factor.solve(scale * b) * scale
-        norm = float(np.bincount(entries.row, scaled, n).max()) * float(np.abs(x).max())
-        residual = (matrix @ (x / scale)) / scale - b
-        return norm / float(np.abs(b).max()), float(np.abs(residual).max()) / norm
