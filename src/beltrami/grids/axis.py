@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Sequence
 from math import prod
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias, TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -46,7 +46,8 @@ def make_axes(
     ------
     DimensionError
         If a size is not a whole number >= 1, if the flags or steps are not one for each axis (or
-        one for all), if a step is not positive, or if the grid is too large for its matrices.
+        one for all), if a step is not positive or its inverse infinite, or if the grid is too
+        large for its matrices.
     NonFiniteError
         If a step is NaN or infinite.
 
@@ -65,7 +66,7 @@ def make_axes(
 
 
 def _sizes(shape: int | Sequence[int]) -> tuple[int, ...]:
-    given = tuple(shape) if isinstance(shape, Sequence | np.ndarray) else (shape,)
+    given = tuple(shape) if _is_row(shape) else (shape,)
     try:
         sizes = tuple(operator.index(p) for p in given)
     except TypeError as cause:
@@ -76,7 +77,9 @@ def _sizes(shape: int | Sequence[int]) -> tuple[int, ...]:
 
 
 def _flags(periodic: bool | Sequence[bool], d: int) -> tuple[bool, ...]:
-    flags = tuple(periodic) if isinstance(periodic, Sequence | np.ndarray) else (periodic,) * d
+    given: Any = periodic
+    given = given[()] if isinstance(given, np.ndarray) else given  # a scalar, if it has no axes
+    flags = tuple(given) if _is_row(given) else (given,) * d
     if not all(isinstance(flag, bool | np.bool_) for flag in flags) or len(flags) != d:
         raise DimensionError(f"periodic is True or False, or {d} of them: not {periodic!r}")
     return tuple(map(bool, flags))
@@ -92,4 +95,12 @@ def _steps(spacing: ArrayLike | None, sizes: tuple[int, ...]) -> tuple[float, ..
         raise NonFiniteError(f"spacing has values that are NaN or infinite: {steps.tolist()}")
     if not (steps > 0).all():
         raise DimensionError(f"spacing must be positive, and is {steps.tolist()}")
+    with np.errstate(over="ignore", divide="ignore"):
+        if not np.isfinite([1 / steps, steps * max(sizes)]).all():
+            raise DimensionError(f"steps of {steps.tolist()} leave the range of floats: scale them")
     return tuple(float(h) for h in np.broadcast_to(steps, len(sizes)))
+
+
+def _is_row(given: object) -> TypeGuard[Sequence[Any]]:
+    """Whether there is one thing for each axis, and not one for all (an array may be either)."""
+    return isinstance(given, Sequence) or (isinstance(given, np.ndarray) and given.ndim > 0)

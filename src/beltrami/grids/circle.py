@@ -3,6 +3,7 @@ r"""Fourier series on the circle R/2πZ: atoms, coefficients, their decay (theor
 from __future__ import annotations
 
 from dataclasses import dataclass
+from numbers import Real
 
 import numpy as np
 import scipy.fft
@@ -10,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from beltrami._arrays import Floats, Integers, read_only, rectangular
 from beltrami.errors import BeltramiError, DimensionError, NonFiniteError
-from beltrami.grids.values import as_values, is_whole
+from beltrami.grids.values import as_values, is_whole, refuse_overflow
 
 
 def circle_atoms(frequencies: ArrayLike, x: ArrayLike) -> NDArray[np.complex128]:
@@ -47,9 +48,11 @@ def circle_atoms(frequencies: ArrayLike, x: ArrayLike) -> NDArray[np.complex128]
     [[0.3989, 0.3989], [0.3989, 0.3989]]
     """
     angles = rectangular(x).astype(np.float64)
-    if not np.isfinite(angles).all():
-        raise NonFiniteError("angles must be finite")
-    return np.asarray(np.exp(1j * np.multiply.outer(angles, _whole(frequencies))) / _ROOT)
+    with np.errstate(over="ignore", invalid="ignore"):
+        phases = np.multiply.outer(angles, _whole(frequencies))
+    if not np.isfinite(phases).all():
+        raise NonFiniteError("angles, and their products with the frequencies, must be finite")
+    return np.asarray(np.exp(1j * phases) / _ROOT)
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,7 +146,9 @@ def fourier_coefficients_circle(f: ArrayLike) -> FourierSeries:
     if values.ndim != 1:
         raise DimensionError(f"a function on the circle has one row of values, not {values.shape}")
     n = len(values)
-    coefficients = scipy.fft.fftshift(scipy.fft.fft(values)) * (_ROOT / n)
+    with np.errstate(over="ignore", invalid="ignore"):
+        coefficients = scipy.fft.fftshift(scipy.fft.fft(values)) * (_ROOT / n)
+    refuse_overflow(coefficients, "the array of coefficients")
     return FourierSeries(read_only(coefficients), read_only(np.arange(n, dtype=np.int64) - n // 2))
 
 
@@ -185,9 +190,11 @@ def coefficient_bound(frequencies: ArrayLike, order: int, supremum: float) -> Fl
         raise DimensionError("the bound says nothing of frequency 0")
     if not is_whole(order) or order < 0:
         raise BeltramiError(f"the order is a whole number >= 0, not {order!r}")
-    if not 0 <= supremum < np.inf:
-        raise BeltramiError(f"the supremum is finite and >= 0, not {supremum}")
-    return np.asarray(_ROOT * supremum * np.abs(omega) ** -float(order))
+    if not isinstance(supremum, Real) or not 0 <= supremum < np.inf:
+        raise BeltramiError(f"the supremum is finite and >= 0, not {supremum!r}")
+    power = np.abs(omega.astype(np.float64)) ** -float(min(order, _LARGEST_ORDER))
+    with np.errstate(over="ignore"):
+        return np.asarray(refuse_overflow(_ROOT * (supremum * power), "the bound"))
 
 
 def decay_exponent(sizes: ArrayLike, errors: ArrayLike) -> float:
@@ -224,10 +231,13 @@ def decay_exponent(sizes: ArrayLike, errors: ArrayLike) -> float:
 
 
 _ROOT = float(np.sqrt(2 * np.pi))
+_LARGEST_ORDER = 2000  # 2 to the power of minus that is 0
 
 
 def _whole(frequencies: ArrayLike) -> Integers:
     given = rectangular(frequencies)
     if given.dtype.kind not in "iu":
         raise DimensionError("the frequencies of a circle are whole numbers")
+    if given.dtype.kind == "u" and given.size and given.max() > np.iinfo(np.int64).max:
+        raise DimensionError("frequencies above 2**63 are too large")
     return given.astype(np.int64)

@@ -12,6 +12,7 @@ from beltrami.errors import BeltramiError, DimensionError, check_name
 from beltrami.grids.transform import dft
 from beltrami.grids.values import Values, as_values, is_whole, refuse_overflow
 
+_MANY = 2**53  # exponents that a float still tells apart
 METHODS = ("auto", "direct", "fft")
 
 
@@ -90,12 +91,12 @@ def convolve_repeatedly(f: ArrayLike, kernel: ArrayLike, times: int) -> Values:
     f, kernel
         As ``convolve``.
     times
-        k, a whole number >= 0.
+        k, a whole number from 0 to 2⁵³ - 1.
 
     Raises
     ------
     BeltramiError
-        If ``times`` is not a whole number >= 0.
+        If ``times`` is not such a number.
     DimensionError, NonFiniteError
         As ``convolve``.
 
@@ -110,8 +111,8 @@ def convolve_repeatedly(f: ArrayLike, kernel: ArrayLike, times: int) -> Values:
     >>> convolve_repeatedly([8.0, 0.0, 0.0, 0.0], [0.0, 0.5, 0.0, 0.5], 2).round(12).tolist()
     [4.0, 0.0, 4.0, 0.0]
     """
-    if not is_whole(times) or times < 0:
-        raise BeltramiError(f"times must be a whole number >= 0, not {times!r}")
+    if not is_whole(times) or not 0 <= times < _MANY:
+        raise BeltramiError("times must be a whole number from 0 to 2**53 - 1")
     values, w = _two(f, kernel)
     return refuse_overflow(_by_fft(values, w, int(times)), "the convolution")
 

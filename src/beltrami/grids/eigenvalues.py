@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from beltrami._arrays import Floats
-from beltrami.errors import BeltramiError
+from beltrami.errors import BeltramiError, MeshError
 from beltrami.grids.axis import Axes, Axis
 from beltrami.grids.lattice import Kinds, axis_weights, cell_measure, require_neighbours
 
@@ -16,7 +16,12 @@ def grid_eigenvalues(axes: Axes, names: Kinds) -> Floats:
     if names.mass == "degree" and is_path_by_degree(axes):
         return _along_each([_path_roots(axis) for axis in axes])
     roots = [weight * _roots(axis) for weight, axis in zip(weights, axes, strict=True)]
-    return _along_each(roots) / uniform_mass(axes, names)
+    mass = uniform_mass(axes, names)
+    with np.errstate(over="ignore"):
+        eigenvalues = np.asarray(_along_each(roots) / mass)
+    if not np.isfinite(eigenvalues).all():
+        raise MeshError(f"the mass {mass:g} is too small for floats: scale the steps of the grid")
+    return eigenvalues
 
 
 def uniform_mass(axes: Axes, names: Kinds) -> float:

@@ -11,7 +11,7 @@ from beltrami._arrays import Floats
 from beltrami.errors import BeltramiError, DimensionError
 from beltrami.grids.axis import Axes
 from beltrami.grids.lattice import axis_weights, require_neighbours
-from beltrami.grids.values import Values, as_values
+from beltrami.grids.values import Values, as_values, refuse_overflow
 
 
 def placed(axes: Axes, stencil: ArrayLike) -> Values:
@@ -34,8 +34,9 @@ def placed(axes: Axes, stencil: ArrayLike) -> Values:
         (np.arange(side) - side // 2) % axis.size
         for side, axis in zip(values.shape, axes, strict=True)
     ]
-    np.add.at(kernel, np.ix_(*offsets), values)  # where the grid is small, values coincide
-    return cast(Values, kernel)
+    with np.errstate(over="ignore", invalid="ignore"):
+        np.add.at(kernel, np.ix_(*offsets), values)  # where the grid is small, values coincide
+    return refuse_overflow(cast(Values, kernel), "the kernel")
 
 
 def averaging_kernel(axes: Axes, weights: str) -> Floats:

@@ -46,7 +46,8 @@ def axis_weights(axes: Axes, kind: str) -> Floats:
     with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
         squares = np.ones(len(axes)) if kind == "combinatorial" else 1 / steps**2
         weights = squares * (steps.prod() if kind == "dirichlet" else 1.0)
-    if not (np.isfinite(weights) & (weights > 0)).all():
+        rows = 8 * len(axes) * weights  # no entry of L, and no eigenvalue, is larger
+    if not (np.isfinite(rows) & (weights > 0)).all():
         raise MeshError(f"{kind} weights of steps {steps.tolist()} are out of the range of floats")
     return np.asarray(weights)
 

@@ -51,4 +51,4 @@ def averaging_limit(axes: Axes, pair: Laplacian, f: Floats, lazy: bool) -> Avera
 
 
 def _mean(weights: Floats, f: Floats) -> Floats:
-    return np.asarray(weights @ f / weights.sum())
+    return np.asarray(weights / weights.sum() @ f)  # a mean of finite values is finite

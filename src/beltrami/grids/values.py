@@ -30,9 +30,10 @@ def as_values(f: ArrayLike, what: str = "the function") -> Values:
         raise DimensionError(f"{what} must be an array of numbers, not of type {given.dtype}")
     if given.ndim == 0 or given.size == 0:
         raise DimensionError(f"{what} needs one value or more along each axis, not {given.shape}")
-    values: Values = (
-        given.astype(np.complex128) if given.dtype.kind == "c" else given.astype(np.float64)
-    )
+    with np.errstate(over="ignore"):  # of longer floats, told below
+        values: Values = (
+            given.astype(np.complex128) if given.dtype.kind == "c" else given.astype(np.float64)
+        )
     require_finite_values(values, what, "Give finite values there.")
     return values
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Booleans, Floats, Integers, rectangular
+from beltrami._arrays import Booleans, Floats, Integers, rectangular, require_finite
 from beltrami._frozen import Frozen
 from beltrami.errors import DimensionError, SurfaceError
 from beltrami.surfaces.inversion import invert
@@ -29,7 +29,7 @@ class Atlas(Frozen):
     Raises
     ------
     SurfaceError
-        If there is no chart.
+        If there is no chart, or something else than charts.
     DimensionError
         If the charts lie in different spaces.
 
@@ -54,9 +54,12 @@ class Atlas(Frozen):
     charts: tuple[ParametricSurface, ...]
 
     def __init__(self, charts: Sequence[ParametricSurface]) -> None:
-        several = tuple(charts)
+        given: Any = charts
+        several = tuple(given) if isinstance(given, Iterable) else (given,)
         if not several:
             raise SurfaceError("an atlas without charts")
+        if not all(isinstance(chart, ParametricSurface) for chart in several):
+            raise SurfaceError("an atlas is made of a list of parametric surfaces")
         if len({chart.dimension for chart in several}) > 1:
             spaces = ", ".join(f"R^{chart.dimension}" for chart in several)
             raise DimensionError(f"charts in different spaces: {spaces}")
@@ -67,7 +70,7 @@ class Atlas(Frozen):
 
     def covers(self, chart: int, points: ArrayLike) -> Booleans:
         """(n,) whether each point (n, k) is on this chart, within 1e-8 of its size."""
-        return invert(self.charts[chart], self._points(points))[1]
+        return invert(self._chart(chart), self._points(points))[1]
 
     def locate(self, points: ArrayLike) -> tuple[Integers, Floats]:
         """Return the first chart on which each point (n, k) is, (n,), and its parameters, (n, 2).
@@ -115,7 +118,7 @@ class Atlas(Frozen):
         SurfaceError
             When ψ is called with parameters whose points are not on the target.
         """
-        old, new = self.charts[source], self.charts[target]
+        old, new = self._chart(source), self._chart(target)
 
         def change(u: Any, v: Any) -> tuple[Any, Any]:
             points = old(plain(u), plain(v))
@@ -139,7 +142,15 @@ class Atlas(Frozen):
         k = self.charts[0].dimension
         if x.ndim != 2 or x.shape[1] != k:
             raise DimensionError(f"points have the shape {x.shape} where (n, {k}) is needed")
+        require_finite(x, "the array of points")
         return x
+
+    def _chart(self, number: int) -> ParametricSurface:
+        if type(number) is bool or not isinstance(number, int | np.integer):
+            raise SurfaceError(f"a chart is named by its number, not by {number!r}")
+        if not 0 <= number < len(self.charts):
+            raise SurfaceError(f"chart {number} of an atlas of {len(self.charts)}, counted from 0")
+        return self.charts[number]
 
 
 def _with_derivatives(

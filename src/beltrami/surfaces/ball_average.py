@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -66,7 +67,7 @@ def ball_average_laplacian(
     Raises
     ------
     SurfaceError
-        If the radius is not positive, or a geodesic leaves the domain.
+        If the radius is not positive, a geodesic leaves the domain, or f is not finite.
     RankLossError
         If one meets a pole of the chart.
     UnknownNameError
@@ -84,8 +85,9 @@ def ball_average_laplacian(
     2.0
     """
     check_name("mean", over, MEANS)
-    if not 0 < radius < np.inf:
+    if not isinstance(radius, Real) or not 0 < radius < np.inf:
         raise SurfaceError(f"the radius is {radius!r} where a positive number is needed")
+    directions = whole("directions", directions, least=3)
     fbar = in_parameters(surface, f, of)
     a, b, shape = checks.broadcast(u, v)
     start = np.repeat(values_of(fbar, a, b), directions)
@@ -97,7 +99,7 @@ def ball_average_laplacian(
         turn = acceleration(at.jacobian, at.hessian, now[2:4])
         return np.stack([*now[2:4], *turn, spread, -curvature * width, width, difference])
 
-    fan = _fan(surface, a, b, whole("directions", directions, least=3))
+    fan = _fan(surface, a, b, directions)
     end = integrate(surface, follow, fan, float(radius), steps)
     width, area, excess = (end[row].reshape(-1, directions).sum(axis=1) for row in (4, 6, 7))
     if over == "disk":
@@ -110,6 +112,7 @@ def _fan(surface: ParametricSurface, u: Floats, v: Floats, directions: int) -> F
     """(8, n * directions) u, v, u', v', J = 0, J' = 1, ∫J = 0, ∫(f - f(x))J = 0 at the centres."""
     checks.require_inside(surface.domain, u, v)
     tangents = surface.immersion.tangents(u, v)
+    checks.require_derivatives(tangents, u, v)
     checks.require_rank(tangents, surface.domain, surface.size, u, v)
     angle = 2 * np.pi * np.arange(directions) / directions
     around = np.stack([np.cos(angle), np.sin(angle)])

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats
 from beltrami._frozen import Frozen
-from beltrami.errors import DimensionError
+from beltrami.errors import DimensionError, SurfaceError
 from beltrami.mesh.mesh import Mesh
 from beltrami.surfaces import checks, curves, forms
 from beltrami.surfaces.domain import Disk, Rectangle, as_domain
@@ -41,7 +41,11 @@ class Chart(Frozen):
     ) -> None:
         where = as_domain(domain, periodic)
         self.__dict__.update(domain=where, immersion=Immersion(phi, jacobian, hessian))
-        self._extremes  # noqa: B018  # calls φ, so that what is wrong with it is told here
+        if not all(callable(each) for each in (phi, jacobian or phi, hessian or phi)):
+            raise SurfaceError("φ, and its Jacobian and Hessian if they are given, are functions")
+        checks.require_range(
+            self.size, where
+        )  # calls φ, so that what is wrong with it is told here
         checks.require_true_derivatives(self.immersion, where)
 
     def __repr__(self) -> str:
@@ -64,7 +68,8 @@ class Chart(Frozen):
     def size(self) -> float:
         """Diagonal of the box around samples of the surface, a length."""
         low, high = self._extremes
-        return float(np.linalg.norm(high - low))
+        with np.errstate(over="ignore"):  # told by require_range
+            return float(np.hypot.reduce(high - low))  # no square that is too small for floats
 
     # ---------------------------------------------------------------- first order
 

@@ -17,6 +17,7 @@ from beltrami.surfaces.immersion import Immersion
 
 RANK_TOLERANCE = 1e-7  # closer to a pole than that, the divisions by g would leave few digits
 _STEP, _AGREE = 1e-5, 1e-4
+_SMALLEST = 1e-60
 
 
 def broadcast(u: ArrayLike, v: ArrayLike) -> tuple[Floats, Floats, tuple[int, ...]]:
@@ -77,6 +78,17 @@ def require_rank(
             "φ is no immersion: its Jacobian has not rank 2, and sqrt(det I) vanishes",
             parameters=_pairs(u, v, lost),
             remedy="Take parameters away from poles and folds, or another chart there.",
+        )
+
+
+def require_range(size: float, domain: ParameterDomain) -> None:
+    """Raise SurfaceError if fourth powers of derivatives, as in det I, would leave the floats."""
+    with np.errstate(all="ignore"):
+        lengths = np.array([size, *(size / domain.extent)])
+    if size and not ((lengths > _SMALLEST) & (lengths < 1 / _SMALLEST)).all():
+        raise SurfaceError(
+            f"a surface of the size {size:.3g} over {domain} is out of the range of floats",
+            remedy="Take another unit of length, or of the parameters.",
         )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -30,7 +31,7 @@ def trace(chart: Chart, curve: Map, t: ArrayLike) -> Floats:
 def intrinsic_length(chart: Chart, curve: Map, start: float, end: float, pieces: int) -> float:
     """∫ sqrt(γ'ᵀ I γ') dt, from I alone: Gauss's rule of 8 nodes on each piece."""
     ends = np.linspace(start, end, pieces + 1)
-    half = np.diff(ends)[:, None] / 2
+    half = np.diff(ends)[:, None] / 2  # negative if the curve is run through backwards
     t = (ends[:-1, None] + half * (1 + _NODES)).ravel()
     at = _along(curve, t)
     _require_pairs(at.points)
@@ -43,7 +44,7 @@ def intrinsic_length(chart: Chart, curve: Map, start: float, end: float, pieces:
         )
     g = chart.first_fundamental_form(*at.points.T)
     speed = np.sqrt(np.einsum("ni,nij,nj->n", velocity, g, velocity))
-    return float(speed @ (half * _WEIGHTS).ravel())
+    return float(speed @ (np.abs(half) * _WEIGHTS).ravel())
 
 
 def extrinsic_length(chart: Chart, curve: Map, start: float, end: float, pieces: int) -> float:
@@ -55,6 +56,10 @@ def extrinsic_length(chart: Chart, curve: Map, start: float, end: float, pieces:
 def length(chart: Chart, curve: Map, start: float, end: float, route: str, pieces: int) -> float:
     """Return the length of a curve by a route of ``ROUTES``; see ``Chart.curve_length``."""
     check_name("route", route, ROUTES)
+    if not all(isinstance(t, Real) and np.isfinite(float(t)) for t in (start, end)):
+        raise DimensionError(
+            f"a curve runs from {start!r} to {end!r}, and needs two finite numbers"
+        )
     measure = intrinsic_length if route == "intrinsic" else extrinsic_length
     return measure(chart, curve, start, end, whole("pieces", pieces, least=1))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any, Protocol
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy as np
 from beltrami._arrays import Booleans, Floats
 from beltrami.errors import SurfaceError
 
+_TRUTH = (bool, np.bool_)
 _SLACK = 1e-9  # of the extent: parameters that rounding has put outside are inside
 
 
@@ -50,7 +52,7 @@ class Rectangle:
     Raises
     ------
     SurfaceError
-        If an interval is empty or not finite.
+        If an interval is empty or not finite, or ``periodic`` not two truth values.
 
     Examples
     --------
@@ -69,12 +71,16 @@ class Rectangle:
         return f"[{u0:g}, {u1:g}{ends[0]} x [{v0:g}, {v1:g}{ends[1]}"
 
     def __post_init__(self) -> None:
-        for name, (low, high) in (("u", self.u), ("v", self.v)):
+        for name, ends in (("u", self.u), ("v", self.v)):
+            low, high = _two_numbers(ends, f"the interval of {name}")
             if not (math.isfinite(low) and math.isfinite(high) and low < high):
                 raise SurfaceError(
                     f"the interval of {name} is ({low:g}, {high:g}) where two ascending finite "
                     "numbers are needed"
                 )
+        flags: Any = self.periodic
+        if np.ndim(flags) != 1 or [type(flag) in _TRUTH for flag in flags] != [True, True]:
+            raise SurfaceError(f"periodic is two truth values, and not {flags!r}")
 
     @property
     def extent(self) -> Floats:
@@ -110,7 +116,7 @@ class Disk:
     Raises
     ------
     SurfaceError
-        If the radius is not positive and finite.
+        If the radius is not positive and finite, or the center not two finite numbers.
 
     Examples
     --------
@@ -122,12 +128,19 @@ class Disk:
     center: tuple[float, float] = (0.0, 0.0)
 
     def __str__(self) -> str:
-        at = "" if self.center == (0, 0) else f" around ({self.center[0]:g}, {self.center[1]:g})"
+        at = (
+            ""
+            if tuple(self.center) == (0, 0)
+            else f" around ({self.center[0]:g}, {self.center[1]:g})"
+        )
         return f"the disk of radius {self.radius:g}{at}"
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.radius) and self.radius > 0):
+        center = _two_numbers(self.center, "the center")
+        if not (isinstance(self.radius, Real) and 0 < self.radius < math.inf):
             raise SurfaceError(f"the radius is {self.radius!r} where a positive number is needed")
+        if not all(map(math.isfinite, center)):
+            raise SurfaceError(f"the center is {self.center!r} where finite numbers are needed")
 
     @property
     def extent(self) -> Floats:
@@ -164,7 +177,7 @@ def as_domain(domain: Any, periodic: tuple[bool, bool]) -> Rectangle | Disk:
         If it is something else, or ``periodic`` is asked of what is not a pair of intervals.
     """
     if isinstance(domain, (Rectangle, Disk)):
-        if any(periodic):
+        if np.any(periodic):
             raise SurfaceError(
                 "periodic is for a domain given as two intervals",
                 remedy="Give Rectangle(u, v, periodic=...); in a disk nothing is periodic.",
@@ -173,13 +186,22 @@ def as_domain(domain: Any, periodic: tuple[bool, bool]) -> Rectangle | Disk:
     try:
         (u0, u1), (v0, v1) = domain
         intervals = (float(u0), float(u1)), (float(v0), float(v1))
-        around = (bool(periodic[0]), bool(periodic[1]))
-    except (TypeError, ValueError, IndexError):
+    except (TypeError, ValueError, OverflowError):
         raise SurfaceError(
             f"the domain is {domain!r} with periodic={periodic!r}",
             remedy="Give ((u0, u1), (v0, v1)) and two truth values, or a Disk.",
         ) from None
-    return Rectangle(*intervals, periodic=around)
+    return Rectangle(*intervals, periodic=periodic)
+
+
+def _two_numbers(pair: Any, what: str) -> tuple[float, float]:
+    try:
+        first, second = pair
+        if isinstance(first, Real) and isinstance(second, Real):
+            return float(first), float(second)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise SurfaceError(f"{what} is {pair!r} where two numbers are needed")
 
 
 def _spread(n: int) -> tuple[Floats, Floats]:

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from beltrami._arrays import Floats
 from beltrami.errors import check_name
+from beltrami.surfaces.checks import require_finite
 from beltrami.surfaces.immersion import Map, call, column
 
 if TYPE_CHECKING:
@@ -27,5 +30,7 @@ def in_parameters(chart: Chart, f: Map, of: str) -> Map:
 
 
 def values_of(f: Map, u: Floats, v: Floats) -> Floats:
-    """(n,) values f(u, v), whatever f does with constants and shapes of its own."""
-    return call(f, "f", 0, column(u), column(v))[:, 0]
+    """(n,) values f(u, v), whatever f does with constants; SurfaceError if not finite."""
+    values = np.asarray(call(f, "f", 0, column(u), column(v))[:, 0])
+    require_finite(values, u, v, "f")
+    return values

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Floats, rectangular, require_finite
+from beltrami.errors import DimensionError
 from beltrami.mesh.shapes.parameters import whole
 from beltrami.surfaces import checks, forms
 from beltrami.surfaces.immersion import Derivatives
@@ -40,6 +41,8 @@ def exponential_map(
         If a geodesic leaves the domain; start farther inside, or take another chart.
     RankLossError
         If one meets a pole of the chart.
+    DimensionError, NonFiniteError
+        If the four arrays do not go together, or a velocity is NaN or infinite.
 
     Examples
     --------
@@ -49,8 +52,13 @@ def exponential_map(
     >>> plane(*exponential_map(plane, 1, 0, 0, 1)).round(6).tolist()  # straight up from (1, 0)
     [1.0, 1.0]
     """
-    a, b = np.broadcast_arrays(u, v)
-    state = np.stack([x.astype(np.float64) for x in np.broadcast_arrays(a, b, du, dv)])
+    rows = [rectangular(x).astype(np.float64) for x in (u, v, du, dv)]
+    try:
+        state = np.stack(np.broadcast_arrays(*rows))
+    except ValueError:
+        shapes = ", ".join(str(row.shape) for row in rows)
+        raise DimensionError(f"u, v, du and dv have the shapes {shapes}") from None
+    require_finite(state[2:].reshape(2, -1).T, "the velocity")
     flat = state.reshape(4, -1)
 
     def follow(at: Derivatives, now: Floats) -> Floats:
@@ -89,6 +97,7 @@ def integrate(
     def at(now: Floats) -> Floats:
         u, v = now[0], now[1]
         here = surface.immersion.derivatives(u, v)
+        checks.require_derivatives(here.jacobian, u, v)
         checks.require_derivatives(here.hessian, u, v)
         checks.require_rank(here.jacobian, surface.domain, surface.size, u, v)
         return slope(here, now)

@@ -94,8 +94,8 @@ def tabulate(functions: Any, part: int = 0) -> Floats:
 
 
 def column(x: Floats) -> Floats:
-    """Write n parameters as (n, 1): what every map is called with."""
-    return np.reshape(x, (-1, 1))
+    """Write n parameters as (n, 1): what every map is called with, and may write into."""
+    return np.array(x).reshape(-1, 1)
 
 
 def _columns(rows: Floats) -> list[Floats]:

@@ -10,7 +10,7 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats
-from beltrami.errors import NotDifferentiableError
+from beltrami.errors import DimensionError, NotDifferentiableError
 from beltrami.surfaces.jet_rules import COMPARISONS, RULES, Partials, constant_power
 
 REMEDY = "Write it with the elementary functions of numpy, or give its derivatives."
@@ -34,6 +34,10 @@ class Jet(NDArrayOperatorsMixin):
     __slots__ = ("first", "second", "value")
 
     def __init__(self, value: ArrayLike, first: Sequence[Any], second: Sequence[Any]) -> None:
+        if np.iscomplexobj(value):
+            raise DimensionError(
+                "a function of (u, v) has complex values where real ones are needed"
+            )
         self.value: Floats = np.asarray(value, dtype=np.float64)
         self.first: Sequence[Any] = first
         self.second: Sequence[Any] = second
@@ -77,7 +81,9 @@ class Jet(NDArrayOperatorsMixin):
         """Let arrays of objects find the functions: np.cos(np.asarray(jet)) asks jet.cos()."""
         if name in RULES:
             return lambda *others: getattr(np, name)(self, *others)
-        raise AttributeError(f"a Jet has no attribute {name!r}")
+        if name.startswith("_"):  # protocols that numpy asks about
+            raise AttributeError(f"a Jet has no attribute {name!r}")
+        raise _unknown(f"the method or attribute .{name}")
 
     def __float__(self) -> float:
         raise _unknown("float(), the functions of math or a conversion to an array of numbers")

@@ -20,7 +20,7 @@ def entries(result: Any, depth: int, shape: tuple[int, int], what: str) -> Any:
     Raises
     ------
     DimensionError
-        If the result has another shape.
+        If the result has another shape, or complex values.
 
     Examples
     --------
@@ -35,12 +35,15 @@ def entries(result: Any, depth: int, shape: tuple[int, int], what: str) -> Any:
         size = result.shape
         if len(size) != depth + 2 or shape not in (size[depth:], size[:2]):
             raise _wrong(what, size)
+        _require_real(result, what)
         pieces = unstack(result, 0 if size[depth:] == shape else -depth)
     else:
         try:
             pieces = list(result)
         except TypeError:
-            raise _wrong(what, np.shape(result)) from None
+            raise _wrong(what, _shape_of(result)) from None
+    if not pieces:
+        raise _wrong(what, (0,))
     return [entries(piece, depth - 1, shape, what) for piece in pieces]
 
 
@@ -53,10 +56,27 @@ def _function(result: Any, shape: tuple[int, int], what: str) -> Any:
             raise _wrong(what, result.shape)
         return result
     try:
-        values = np.asarray(result, dtype=np.float64)
-        return np.broadcast_to(values, shape)
+        given = np.asarray(result)
+    except ValueError:
+        raise _wrong(what, _shape_of(result)) from None
+    _require_real(given, what)
+    try:
+        return np.broadcast_to(given.astype(np.float64), shape)
     except (TypeError, ValueError):
-        raise _wrong(what, np.shape(result)) from None
+        raise _wrong(what, given.shape) from None
+
+
+def _require_real(result: Any, what: str) -> None:
+    if isinstance(result, np.ndarray) and result.dtype.kind == "c":
+        raise DimensionError(f"{what} has complex values where real ones are needed")
+
+
+def _shape_of(result: Any) -> tuple[int, ...]:
+    """Return the shape, or the length of what is ragged."""
+    try:
+        return np.shape(result)
+    except ValueError:
+        return (len(result),)
 
 
 def _wrong(what: str, shape: tuple[int, ...]) -> DimensionError:
