@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from numbers import Real
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,16 +11,14 @@ from numpy.typing import ArrayLike
 from beltrami._arrays import Floats, rectangular
 from beltrami.errors import DimensionError, NotDifferentiableError, check_name
 from beltrami.mesh.shapes.parameters import whole
+from beltrami.surfaces.charted import Charted
 from beltrami.surfaces.immersion import Derivatives, Map, call, derivatives_of, tabulate
-
-if TYPE_CHECKING:
-    from beltrami.surfaces.chart import Chart
 
 ROUTES = ("intrinsic", "extrinsic")
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
-def trace(chart: Chart, curve: Map, t: ArrayLike) -> Floats:
+def trace(chart: Charted, curve: Map, t: ArrayLike) -> Floats:
     """(..., k) points φ(γ(t)) of the curve γ: t -> (u, v)."""
     times = rectangular(t).astype(np.float64)
     uv = tabulate(call(curve, "the curve", 1, times.reshape(-1, 1)))
@@ -28,7 +26,7 @@ def trace(chart: Chart, curve: Map, t: ArrayLike) -> Floats:
     return chart(*uv.T).reshape(*times.shape, chart.dimension)
 
 
-def intrinsic_length(chart: Chart, curve: Map, start: float, end: float, pieces: int) -> float:
+def intrinsic_length(chart: Charted, curve: Map, start: float, end: float, pieces: int) -> float:
     """∫ sqrt(γ'ᵀ I γ') dt, from I alone: Gauss's rule of 8 nodes on each piece."""
     ends = np.linspace(start, end, pieces + 1)
     half = np.diff(ends)[:, None] / 2  # negative if the curve is run through backwards
@@ -47,13 +45,13 @@ def intrinsic_length(chart: Chart, curve: Map, start: float, end: float, pieces:
     return float(speed @ (np.abs(half) * _WEIGHTS).ravel())
 
 
-def extrinsic_length(chart: Chart, curve: Map, start: float, end: float, pieces: int) -> float:
+def extrinsic_length(chart: Charted, curve: Map, start: float, end: float, pieces: int) -> float:
     """Length in Rᵏ of the polyline through pieces + 1 points of the traced curve."""
     points = trace(chart, curve, np.linspace(start, end, pieces + 1))
     return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
 
 
-def length(chart: Chart, curve: Map, start: float, end: float, route: str, pieces: int) -> float:
+def length(chart: Charted, curve: Map, start: float, end: float, route: str, pieces: int) -> float:
     """Return the length of a curve by a route of ``ROUTES``; see ``Chart.curve_length``."""
     check_name("route", route, ROUTES)
     if not all(isinstance(t, Real) and np.isfinite(float(t)) for t in (start, end)):

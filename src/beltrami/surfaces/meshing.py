@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from beltrami._arrays import Floats, Integers
@@ -13,14 +11,12 @@ from beltrami.mesh.shapes.concentric import disk_faces, ring_points
 from beltrami.mesh.shapes.lattice import lattice_faces
 from beltrami.mesh.shapes.parameters import whole
 from beltrami.operators.soundness import require_sound
+from beltrami.surfaces.charted import Charted
 from beltrami.surfaces.domain import Disk, Rectangle
 from beltrami.surfaces.seams import glue
 
-if TYPE_CHECKING:
-    from beltrami.surfaces.chart import Chart
 
-
-def mesh_chart(chart: Chart, nu: int, nv: int) -> Mesh:
+def mesh_chart(chart: Charted, nu: int, nv: int) -> Mesh:
     """Mesh a surface over its domain; see ``ParametricSurface.mesh``."""
     nu, nv = whole("nu", nu, least=1), whole("nv", nv, least=1)
     if isinstance(chart.domain, Disk):
@@ -48,7 +44,7 @@ def _disk(domain: Disk, nu: int, nv: int) -> tuple[Floats, Integers]:
 
 
 def _rectangle(
-    chart: Chart, domain: Rectangle, nu: int, nv: int
+    chart: Charted, domain: Rectangle, nu: int, nv: int
 ) -> tuple[Floats, Floats, Integers]:
     """Cut a rectangle into nv rows of nu cells; glue its sides where they meet on the chart."""
     v, u = np.meshgrid(
