@@ -173,3 +173,11 @@ def test_the_bound_with_area_masses_asks_for_areas():
     flat = Mesh([[0, 0], [1, 0], [2, 0]], [[0, 1, 2]])
     with pytest.raises(DegenerateFaceError):
         laplacian(flat, "combinatorial").spectral_bound("voronoi")
+
+
+def test_an_inner_product_wants_as_many_columns():
+    pair = laplacian(MESHES["closed"]())
+    f = np.ones(pair.n)
+    assert pair.inner(f, f[:, None]) == pair.inner(f, f)
+    with pytest.raises(DimensionError, match="as many columns"):
+        pair.inner(f, np.ones((pair.n, 2)))
