@@ -182,7 +182,7 @@ def test_needles_whose_area_flips_lose_are_refused():
     x = rng.uniform(-1, 1, size=(14, 2))
     faces = Delaunay(x).simplices
     found = 0
-    for thin in (1e-6, 1e-9, 3e-10, 1e-10):
+    for thin in (1e-6, 1e-9, 6e-10):
         mesh = Mesh(x * [1, thin], faces)
         try:
             triangles = intrinsic_delaunay(mesh, cover=True)
