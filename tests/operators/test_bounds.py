@@ -146,6 +146,7 @@ def test_bounds_do_not_overflow(unit):
 
 
 def test_needles_stay_below_three_with_the_degree_mass():
-    x = torus(10, 6).vertices * [1, 1, 1e-11]
+    ring = torus(4, 5)  # flattened, its long sides see cotangents that cancel
     for weights in ("cotangent", "intrinsic_delaunay", "tufted"):
-        assert laplacian(Mesh(x, torus(10, 6).faces), weights, "degree").spectral_bound() <= 3
+        mesh = ring.with_vertices(ring.vertices * [1, 1, 1e-10])
+        assert laplacian(mesh, weights, "degree").spectral_bound() <= 3
