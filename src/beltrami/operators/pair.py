@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
-from beltrami._arrays import Floats, Integers, as_function, read_only
+from beltrami._arrays import Floats, Integers, as_function, read_only, read_only_matrix
 from beltrami.errors import DimensionError, MeshError, NegativeWeightError, check_name
 from beltrami.mesh.edge_matrix import symmetric_matrix
 from beltrami.mesh.mesh import Mesh
@@ -50,6 +50,8 @@ class Laplacian:
     edges : (p, 2) int, i < j
     edge_weight : (p,) weights w_ij of the edges
     weight_kind, mass_kind : their names
+
+    All its matrices are read-only: ``pair.stiffness.copy()`` is yours.
     """
 
     stiffness: csr_array
@@ -59,6 +61,10 @@ class Laplacian:
     weight_kind: str
     mass_kind: str
     domain: Mesh | Topology | IntrinsicTriangulation | None = field(default=None)
+
+    def __post_init__(self) -> None:
+        read_only_matrix(self.stiffness)
+        read_only_matrix(self.mass)
 
     def __repr__(self) -> str:
         certain = self._of_a_surface or not len(self._negative_edges)
@@ -79,7 +85,7 @@ class Laplacian:
     @cached_property
     def weights(self) -> csr_array:
         """(n, n) symmetric W, zero diagonal."""
-        return symmetric_matrix(self.edges, self.edge_weight, self.n)
+        return read_only_matrix(symmetric_matrix(self.edges, self.edge_weight, self.n))
 
     @cached_property
     def degrees(self) -> Floats:
@@ -103,7 +109,7 @@ class Laplacian:
         """
         self.require_non_negative("averaging")
         self._require_degrees()
-        return csr_array(diagonal_matrix(1 / self.degrees) @ self.weights)
+        return read_only_matrix(csr_array(diagonal_matrix(1 / self.degrees) @ self.weights))
 
     @cached_property
     def normalized(self) -> csr_array:
@@ -113,12 +119,12 @@ class Laplacian:
         """
         self._require_degrees()
         root = diagonal_matrix(1 / np.sqrt(self.degrees))
-        return csr_array(root @ self.stiffness @ root)
+        return read_only_matrix(csr_array(root @ self.stiffness @ root))
 
     @cached_property
     def incidence(self) -> csr_array:
         """(p, n) signed incidence G0; L = G0' diag(edge_weight) G0 for weights of any sign."""
-        return incidence_matrix(self.edges, self.n)
+        return read_only_matrix(incidence_matrix(self.edges, self.n))
 
     @cached_property
     def gradient(self) -> csr_array:
@@ -128,7 +134,7 @@ class Laplacian:
         """
         slightly = (self.edge_weight < 0) & (self.edge_weight >= -self._rounding)
         kept = np.where(slightly, 0, self.edge_weight)
-        return edge_gradient(self.edges, kept, self.n)
+        return read_only_matrix(edge_gradient(self.edges, kept, self.n))
 
     # ---------------------------------------------------------------- functions
 
