@@ -33,6 +33,7 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
 
 def read_only_matrix(matrix: csr_array) -> csr_array:
     """Mark the arrays of a sparse matrix that we have just made as read-only; return it."""
+    matrix.sort_indices()  # now, because whoever does it later would write
     for array in (matrix.data, matrix.indices, matrix.indptr):
         read_only(array)
     return matrix

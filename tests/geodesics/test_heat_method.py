@@ -199,7 +199,7 @@ def test_in_the_maze_it_walks_around_corners():
 
 def test_wrong_options():
     mesh = MESHES["pl"]()
-    for time in (0, -1.0, np.nan, np.inf):
+    for time in (0, -1.0, np.nan, np.inf, "a", [1.0], np.ones(2), 1j):
         with pytest.raises(BeltramiError, match="must be positive"):
             HeatMethod(mesh, time=time)
     with pytest.raises(UnknownNameError, match="neumann"):

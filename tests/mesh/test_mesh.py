@@ -299,3 +299,12 @@ def test_repr():
     assert repr(Mesh(X, F)) == "<Mesh: 4 vertices in R³, 4 faces>"
     assert "uv" in repr(Mesh(X, F, corner_uv=np.zeros((4, 3, 2))))
     assert "R12" in repr(Mesh(np.zeros((4, 12)), F))
+
+
+def test_a_surface_with_one_side_has_no_volume_after_any_repair():
+    faces = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5], [0, 5, 1],
+             [1, 2, 4], [2, 3, 5], [3, 4, 1], [4, 5, 2], [5, 1, 3]]  # fmt: skip
+    plane = Mesh(np.random.default_rng(0).normal(size=(6, 3)), faces)  # the projective one
+    with pytest.raises(NotOrientableError, match="one side") as caught:
+        _ = plane.volume
+    assert "repair" not in caught.value.remedy

@@ -6,6 +6,8 @@ from scipy.sparse import csr_array
 
 import dense_oracles as oracle
 from beltrami.errors import DimensionError, UnknownNameError
+from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.shapes import torus
 from beltrami.operators import bounds
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.pair import MASSES
@@ -114,3 +116,37 @@ def test_positions_are_needed_for_areas():
         pair.spectral_bound(mass="voronoi")
     with pytest.raises(UnknownNameError):
         pair.spectral_bound(mass="lumped")
+
+
+def test_a_corner_without_mass_leaves_an_edge():
+    zero = np.zeros((1, 3))
+    for turn in range(3):
+        sides, corners = np.roll([[2.0, 0, 0]], turn, 1), np.roll([[0.0, 1, 4]], turn, 1)
+        assert bounds.largest_face_eigenvalue(sides, corners) == pytest.approx(2 * (1 + 1 / 4))
+        assert bounds.largest_face_eigenvalue(np.ones((1, 3)), corners) == np.inf
+    assert bounds.largest_face_eigenvalue(zero, zero) == 0
+    assert bounds.largest_face_eigenvalue(np.ones((1, 3)), zero) == np.inf
+
+
+def test_weights_that_a_callable_made_zero():
+    square = Mesh([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]])
+    for given_weights in ([1, 0, 1, 0, 1], [0, 0, 1, 1, 1], [1, 0, 0, 0, 1], [1, 1, 1, 1, 0]):
+        pair = laplacian(square, lambda mesh, w=given_weights: w, "degree")
+        true = oracle.spectrum(pair.stiffness.toarray(), pair.mass.toarray())[-1]
+        assert true <= pair.spectral_bound() + 1e-12 <= 2 + 1e-9
+
+
+@pytest.mark.parametrize("unit", [1e-100, 1e-70, 1e70, 1e100])
+def test_bounds_do_not_overflow(unit):
+    mesh = MESHES["closed"]()
+    for weights, power in (("cotangent", -2), ("tufted", -2), ("distance", -4)):
+        bound = laplacian(mesh, weights, "voronoi").spectral_bound()
+        pair = laplacian(mesh.with_vertices(mesh.vertices * unit**0.5), weights, "voronoi")
+        assert pair.spectral_bound() == pytest.approx(bound * unit ** (power / 2), rel=1e-9)
+
+
+def test_needles_stay_below_three_with_the_degree_mass():
+    ring = torus(4, 5)  # flattened, its long sides see cotangents that cancel
+    for weights in ("cotangent", "intrinsic_delaunay", "tufted"):
+        mesh = ring.with_vertices(ring.vertices * [1, 1, 1e-10])
+        assert laplacian(mesh, weights, "degree").spectral_bound() <= 3

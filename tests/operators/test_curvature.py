@@ -131,3 +131,16 @@ def test_gauss_bonnet_of_the_blob():
     found = curvature(blob(2000))
     assert found.angle_defect.sum() == pytest.approx(4 * np.pi, rel=1e-10)
     assert not found.turning.any()
+
+
+def test_the_remedy_for_one_side_is_not_to_orient():
+    band = Mesh(*moebius(np.random.default_rng(0), 12))
+    with pytest.raises(NotOrientableError, match="one side") as caught:
+        curvature(band)
+    assert "repair" not in caught.value.remedy.replace("no repair", "")
+    turned = icosphere(1)
+    faces = turned.faces.copy()
+    faces[0] = faces[0, ::-1]
+    with pytest.raises(NotOrientableError) as caught:
+        curvature(Mesh(turned.vertices, faces))
+    assert "orient=True" in caught.value.remedy

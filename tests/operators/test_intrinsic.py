@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.spatial import Delaunay
 
 import strategies
 from beltrami.errors import (
@@ -174,3 +175,19 @@ def test_defects_are_named(monkeypatch):
     monkeypatch.setattr(intrinsic, "_MOST", 0)
     with pytest.raises(ConvergenceError, match="flips"):
         intrinsic_delaunay(MESHES["bad"]())
+
+
+def test_needles_whose_area_flips_lose_are_refused():
+    rng = np.random.default_rng(5)
+    x = rng.uniform(-1, 1, size=(14, 2))
+    faces = Delaunay(x).simplices
+    found = 0
+    for thin in (1e-6, 1e-9, 6e-10):
+        mesh = Mesh(x * [1, thin], faces)
+        try:
+            triangles = intrinsic_delaunay(mesh, cover=True)
+        except ConvergenceError:
+            found += 1
+            continue
+        assert triangles.area_parts.sum() == pytest.approx(mesh.area, rel=1e-6)
+    assert found

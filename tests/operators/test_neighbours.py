@@ -4,6 +4,7 @@ import pytest
 from beltrami.errors import DimensionError, MeshError, NonFiniteError, UnknownNameError
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.neighbours import GRAPH_WEIGHTS, knn_graph
+from beltrami.operators.point_cloud import PointCloud
 from meshes_of_the_errata import MESHES
 
 pytestmark = pytest.mark.chapter("P4", "P7", "X3")
@@ -92,3 +93,26 @@ def test_what_is_refused():
             knn_graph(good, 2, "gaussian", scale=scale)
     with pytest.raises(MeshError, match="only gaussian"):
         knn_graph(good, 2, scale=1.0)
+
+
+@pytest.mark.parametrize("k", ["2", None, [2], 2.5, np.nan, 0, 42])
+def test_a_number_of_neighbours_is_an_integer(k):
+    points = np.random.default_rng(0).normal(size=(42, 3))
+    for make in (knn_graph, PointCloud):
+        with pytest.raises(MeshError, match="neighbours among 42 points"):
+            make(points, k)
+    assert PointCloud(points, 2.0).n_neighbors == 2
+
+
+def test_distances_whose_squares_are_no_numbers():
+    points = np.random.default_rng(0).normal(size=(20, 3))
+    for unit in (1e-200, 1e155, 1e300):
+        with pytest.raises(MeshError, match="Choose another unit"):
+            knn_graph(points * unit, 3)
+    near = np.array([[0.0, 0], [1, 0], [1, 1e-160]])
+    with pytest.raises(MeshError, match="coincide") as caught:
+        knn_graph(near, 1, "distance")
+    assert caught.value.edges.tolist() == [[1, 2]]
+    assert (knn_graph(points, 3, "gaussian", scale=1e-300).data == 0).all()
+    with pytest.raises(MeshError, match="positive length"):
+        knn_graph(points, 3, "gaussian", scale="wide")

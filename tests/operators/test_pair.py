@@ -173,3 +173,27 @@ def test_the_bound_with_area_masses_asks_for_areas():
     flat = Mesh([[0, 0], [1, 0], [2, 0]], [[0, 1, 2]])
     with pytest.raises(DegenerateFaceError):
         laplacian(flat, "combinatorial").spectral_bound("voronoi")
+
+
+def test_an_inner_product_wants_as_many_columns():
+    pair = laplacian(MESHES["closed"]())
+    f = np.ones(pair.n)
+    assert pair.inner(f, f[:, None]) == pair.inner(f, f)
+    with pytest.raises(DimensionError, match="as many columns"):
+        pair.inner(f, np.ones((pair.n, 2)))
+
+
+MATRICES = ("stiffness", "mass", "weights", "averaging", "normalized", "incidence", "gradient")
+
+
+@pytest.mark.parametrize("mass", MASSES)
+@pytest.mark.parametrize("weights", ["combinatorial", "tufted"])
+def test_the_matrices_are_read_only(weights, mass):
+    pair = laplacian(MESHES["closed"](), weights, mass)
+    for name in MATRICES:
+        matrix = getattr(pair, name)
+        for array in (matrix.data, matrix.indices, matrix.indptr):
+            assert not array.flags.writeable, name
+        with pytest.raises(ValueError, match="read-only"):
+            matrix.data[0] = 7
+        assert (matrix + matrix.T.T != 2 * matrix).nnz == 0  # and can be used

@@ -11,6 +11,8 @@ from beltrami.errors import (
     UnknownNameError,
 )
 from beltrami.mesh.mesh import Mesh
+from beltrami.operators.intrinsic import intrinsic_delaunay
+from beltrami.operators.laplacian import laplacian
 from beltrami.operators.weights import WEIGHTS, edge_weights, weigh_edges
 from meshes_of_the_errata import IRREGULAR, MESHES, triangle
 
@@ -118,3 +120,18 @@ def test_defects_are_named():
     with pytest.raises(MeshError, match="positive length") as caught:
         edge_weights(Mesh([*x, [1, 0]], [good, [1, 2, 5]]), "distance")
     assert caught.value.edges.tolist() == [[1, 5]]
+
+
+def test_an_array_is_no_name_of_weights():
+    mesh = MESHES["closed"]()
+    graph = edge_weights(mesh, "distance")
+    for wrong in (np.ones(len(mesh.edges)), [1.0], graph, 5):
+        with pytest.raises(UnknownNameError):
+            edge_weights(mesh, wrong)
+        for domain in (mesh, mesh.topology, intrinsic_delaunay(mesh)):
+            with pytest.raises(UnknownNameError):
+                laplacian(domain, wrong)
+        with pytest.raises(DimensionError, match="brings its own weights"):
+            laplacian(graph, wrong)
+    with pytest.raises(UnknownNameError):
+        laplacian(intrinsic_delaunay(mesh), "")

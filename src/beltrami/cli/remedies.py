@@ -17,11 +17,14 @@ def as_commands(text: str) -> str:
     '`beltrami repair --split-non-manifold` cuts there; --remove-duplicate-faces first.'
     >>> as_commands('Use laplacian(mesh, "combinatorial") or "distance", or heat(), not this.')
     'Use --weights combinatorial or distance, or --method implicit, not this.'
+    >>> as_commands('Or use method="heat".')
+    'Or use --method heat.'
     """
     text = re.sub(r"repair\(mesh, ([^)]*)\)", _call, text)
     text = re.sub(rf"\brepair: ({_repairs()})\b", _command, text)
     text = re.sub(rf"\b({_repairs()})(=True)?\b(?!\s*=)", lambda found: _option(found[1]), text)
     text = re.sub(r'laplacian\(mesh, "(\w+)"\) or "(\w+)"', r"--weights \1 or \2", text)
+    text = re.sub(r'\b(method|weights|mass)="(\w+)"', r"--\1 \2", text)
     return text.replace("heat()", "--method implicit")
 
 

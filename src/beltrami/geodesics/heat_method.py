@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import numbers
 from typing import Any
 
 import numpy as np
@@ -87,9 +88,7 @@ class HeatMethod(Frozen):
         check_name("boundary", boundary, BOUNDARIES)
         pair = laplacian(mesh, _weights(mesh, intrinsic), "voronoi")
         triangles = pair.domain if isinstance(pair.domain, IntrinsicTriangulation) else mesh
-        t = _mean_edge(triangles) ** 2 if time is None else float(time)
-        if not (math.isfinite(t) and t > 0):
-            raise BeltramiError(f"the time of the heat method must be positive, not {time}")
+        t = _mean_edge(triangles) ** 2 if time is None else _checked_time(time)
         if isinstance(triangles, Mesh):
             halves, areas = side_weights(mesh, np.zeros(0), "cotangent"), mesh.face_areas
         else:
@@ -169,6 +168,12 @@ class HeatMethod(Frozen):
         if self._cold is not None:
             heat[self._inner] += self._cold.solve(delta[self._inner])
         return heat
+
+
+def _checked_time(time: float) -> float:
+    if isinstance(time, numbers.Real) and math.isfinite(time) and time > 0:
+        return float(time)
+    raise BeltramiError(f"the time of the heat method must be positive, not {time!r}")
 
 
 def _weights(mesh: Mesh, intrinsic: bool) -> str:

@@ -276,7 +276,9 @@ class Mesh(Frozen):
             raise NotOrientableError(
                 "neighbouring faces disagree on which side is outside",
                 edges=topology.inconsistent_edges,
-                remedy="See repair(mesh, orient=True).",
+                remedy="See repair(mesh, orient=True)."
+                if topology.is_orientable
+                else "The surface has one side and encloses nothing.",
             )
 
 

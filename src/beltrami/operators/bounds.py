@@ -99,12 +99,39 @@ def _largest_root(weights: Any, masses: Any) -> float:
     """Maximum over the faces of the larger root."""
     largest = 0.0
     for f in range(weights.shape[0]):
-        u, v, w = weights[f, 0], weights[f, 1], weights[f, 2]
-        a, b, c = masses[f, 0], masses[f, 1], masses[f, 2]
-        t = (v + w) / a + (w + u) / b + (u + v) / c
-        s = (u * v + v * w + w * u) * ((a + b + c) / a / b / c)
-        largest = max(largest, (t + max(t * t - 4 * s, 0.0) ** 0.5) / 2)
+        weight = max(abs(weights[f, 0]), abs(weights[f, 1]), abs(weights[f, 2]))
+        mass = max(masses[f, 0], masses[f, 1], masses[f, 2])
+        if weight == 0:
+            continue  # it brings nothing to L, and perhaps nothing to B
+        if mass == 0:
+            return np.inf
+        u, v, w = weights[f, 0] / weight, weights[f, 1] / weight, weights[f, 2] / weight
+        a, b, c = masses[f, 0] / mass, masses[f, 1] / mass, masses[f, 2] / mass
+        root = _root(u, v, w, a, b, c) if a > 0 and b > 0 and c > 0 else _light(u, v, w, a, b, c)
+        largest = max(largest, root * (weight / mass))
     return largest
+
+
+@kernel
+def _root(u: float, v: float, w: float, a: float, b: float, c: float) -> float:
+    """Larger root for weights and masses of about 1, whose squares are numbers in any unit."""
+    t = (v + w) / a + (w + u) / b + (u + v) / c
+    s = (u * v + v * w + w * u) * ((a + b + c) / a / b / c)
+    return float((t + max(t * t - 4 * s, 0.0) ** 0.5) / 2)
+
+
+@kernel
+def _light(u: float, v: float, w: float, a: float, b: float, c: float) -> float:
+    """Larger root where a corner has no mass: what is left is the edge between the others.
+
+    So it is for weights that a callable made zero. A corner with a stiffness and no mass has no
+    bound.
+    """
+    for _ in range(3):
+        if a == 0 and v == 0 and w == 0 and b > 0 and c > 0:
+            return u / b + u / c
+        u, v, w, a, b, c = v, w, u, b, c, a
+    return np.inf
 
 
 @kernel

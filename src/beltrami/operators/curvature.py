@@ -121,5 +121,8 @@ def _require_oriented_manifold(topology: Topology) -> None:
         raise NotOrientableError(
             "neighbouring faces disagree on which side is outside, so H has no sign",
             edges=topology.inconsistent_edges,
-            remedy="See repair(mesh, orient=True).",
+            remedy="See repair(mesh, orient=True)."
+            if topology.is_orientable
+            else "The surface has one side, so no repair gives it a normal; of what curvature "
+            "measures, areas and angles alone are left: vertex_areas, mesh.corner_angles.",
         )

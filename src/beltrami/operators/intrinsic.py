@@ -16,6 +16,7 @@ from beltrami.operators.cover import BACK, tufted_cover
 from beltrami.operators.flips import flip_to_delaunay, measure_faces
 from beltrami.operators.soundness import refuse_unreferenced, require_sound
 
+_KEPT = 1e-6  # of the area: what rounding may change
 _MOST = 1000  # flips for each edge; a sphere stretched 100,000 times took 2.6
 
 
@@ -107,7 +108,8 @@ def intrinsic_delaunay(mesh: Mesh, *, cover: bool = False) -> IntrinsicTriangula
         Without a cover, if the faces cannot be oriented alike. Faces that merely are not, are
         turned.
     ConvergenceError
-        If it takes more than 1000 flips for each edge: it always stops.
+        If it takes more than 1000 flips for each edge (it always stops), or if faces are so
+        thin that rounding changed their area on the way.
 
     Notes
     -----
@@ -137,15 +139,28 @@ def intrinsic_delaunay(mesh: Mesh, *, cover: bool = False) -> IntrinsicTriangula
         faces, twins, sides = tufted_cover(topology)
         dots, double = np.concatenate([dots, dots[:, BACK]]), np.tile(double, 2)
         p = 3 * mesh.n_faces
+    before = float(double.sum())
     flips = int(flip_to_delaunay(faces, twins, sides, dots, double, p, _MOST * p))
     if flips < 0:
         raise ConvergenceError(
             f"{_MOST * p} flips of {p} edges have not made the triangulation Delaunay"
         )
+    _require_area(double, before)
     tables = (read_only(faces), read_only(twins), read_only(sides))
     numbers = (read_only(dots), read_only(double))
     sheets = 2 if cover else 1
     return IntrinsicTriangulation(*tables, flips, mesh.n_vertices, *numbers, unit, sheets)
+
+
+def _require_area(double: Floats, before: float) -> None:
+    """Raise ConvergenceError if flips of needles have lost the area, which flips keep."""
+    after = float(double.sum())
+    if not (double.min() > 0 and abs(after - before) <= _KEPT * before):
+        raise ConvergenceError(
+            f"faces are too thin to be flipped in floating point: twice the area went from "
+            f"{before:.6g} to {after:.6g}. Make the thinnest faces less thin, or use cotangents of "
+            "the faces as they are"
+        )
 
 
 def _oriented(topology: Topology) -> Topology:

@@ -90,7 +90,7 @@ def laplacian(
         return _of_graph(csr_array(matrix), name, mass)
     if isinstance(domain, IntrinsicTriangulation):
         own = INTRINSIC if domain.sheets == 1 else TUFTED
-        check_name("weights", name or own, (own,))
+        check_name("weights", own if name is None else name, (own,))
         return intrinsic_laplacian(domain, mass)
     if isinstance(domain, Domain):
         return domain.make_laplacian(name, mass)
@@ -118,8 +118,8 @@ def laplacian(
     return Laplacian(stiffness, masses, topology.edges, edge_weight, weight_kind, mass_kind, domain)
 
 
-def _checked_kind(name: str) -> str:
-    if name == "mean_value":
+def _checked_kind(name: object) -> str:
+    if isinstance(name, str) and name == "mean_value":  # an array would compare its entries
         raise MeshError(
             "mean value weights are not symmetric: they serve maps, and no Laplacian",
             remedy='Use "clamped" weights, which are positive too, or edge_weights(mesh, '
@@ -158,7 +158,7 @@ def _mass_matrix(
     return diagonal_matrix(vertex_areas(domain, kind) if areas is None else areas)
 
 
-def _of_graph(matrix: csr_array, weights: str | None, mass: str | None) -> Laplacian:
+def _of_graph(matrix: csr_array, weights: object, mass: str | None) -> Laplacian:
     """Make the pair of a graph given by its symmetric weights."""
     n = matrix.shape[0]
     if not n or matrix.dtype.kind not in "biuf":
@@ -167,8 +167,8 @@ def _of_graph(matrix: csr_array, weights: str | None, mass: str | None) -> Lapla
         raise MeshError(f"a matrix of weights is square and finite, and this is {matrix.shape}")
     if abs(matrix - matrix.T).max() > 1e-12 * abs(matrix).max() or matrix.diagonal().any():
         raise MeshError("a matrix of weights is symmetric, with a zero diagonal")
-    if weights not in (None, "combinatorial"):
-        raise DimensionError(f"{weights} weights need a Mesh: a graph brings its own weights")
+    if weights is not None and not (isinstance(weights, str) and weights == "combinatorial"):
+        raise DimensionError(f"{weights!s:.40} weights need a Mesh: a graph brings its own weights")
     upper = triu(matrix, 1).tocsr()
     upper.sum_duplicates()
     upper.eliminate_zeros()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numbers
+
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
@@ -13,6 +15,7 @@ from beltrami.mesh.edge_matrix import symmetric_matrix
 
 GRAPH_WEIGHTS = ("combinatorial", "distance", "gaussian")
 JOINS = ("either", "both")
+_LEAST = 1e-150  # of the largest coordinate: smaller squares are no numbers
 
 
 def knn_graph(
@@ -86,15 +89,28 @@ def as_points(points: ArrayLike) -> Floats:
     if positions.ndim != 2 or not positions.size:
         raise DimensionError(f"points have the shape {positions.shape} where (n, d) is needed")
     require_finite(positions, "the cloud")
+    largest = float(np.abs(positions).max())
+    if largest and not _LEAST < largest < 1 / _LEAST:
+        raise MeshError(
+            f"coordinates of {largest:.0e} leave no room for squared distances",
+            remedy="Choose another unit.",
+        )
     return positions
+
+
+def checked_number(k: int, n: int) -> int:
+    """Return k if it is an integer in 1..n-1; 2.0 is one."""
+    if not isinstance(k, numbers.Real) or not 1 <= k < n or int(k) != k:
+        raise MeshError(
+            f"{k!r} neighbours among {n} points", remedy=f"Choose an integer in 1..{n - 1}."
+        )
+    return int(k)
 
 
 def _nearest(positions: Floats, k: int, join: str) -> Integers:
     """Return the edges i < j, sorted."""
-    n = len(positions)
-    if not 1 <= k < n or int(k) != k:
-        raise MeshError(f"k = {k!r} neighbours among {n} points: k is an integer in 1..{n - 1}")
-    found = np.asarray(cKDTree(positions).query(positions, int(k) + 1)[1])
+    n, k = len(positions), checked_number(k, len(positions))
+    found = np.asarray(cKDTree(positions).query(positions, k + 1)[1])
     others = found != np.arange(n)[:, None]  # where points coincide, oneself may be missing
     others[others.all(axis=1), -1] = False
     pairs = np.stack([np.repeat(np.arange(n), k), found[others]], axis=1)
@@ -110,12 +126,18 @@ def _weigh(edges: Integers, lengths: Floats, weights: str, scale: float | None) 
     if weights == "combinatorial":
         return np.ones(len(edges))
     if weights == "distance":
-        if not (lengths > 0).all():
+        with np.errstate(divide="ignore", over="ignore"):
+            values = 1 / lengths**2
+        if not np.isfinite(values).all():
             raise MeshError(
-                "distance weights need points that do not coincide", edges=edges[lengths == 0]
+                "distance weights need points that do not coincide",
+                edges=edges[~np.isfinite(values)],
             )
-        return 1 / lengths**2
-    sigma = float(lengths.mean()) if scale is None and len(edges) else scale
-    if sigma is None or not np.isfinite(sigma) or sigma <= 0:
+        return values
+    if scale is None and not len(edges):
+        return lengths
+    sigma = float(lengths.mean()) if scale is None else scale
+    if not isinstance(sigma, numbers.Real) or not np.isfinite(sigma) or sigma <= 0:
         raise MeshError(f"the scale of gaussian weights is a positive length, not {sigma!r}")
-    return np.exp(-((lengths / sigma) ** 2) / 2)
+    with np.errstate(over="ignore"):  # so far away that the weight is 0
+        return np.asarray(np.exp(-((lengths / float(sigma)) ** 2) / 2))

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
-from beltrami._arrays import Floats, Integers, as_function, read_only
-from beltrami.errors import MeshError, NegativeWeightError, check_name
+from beltrami._arrays import Floats, Integers, as_function, read_only, read_only_matrix
+from beltrami.errors import DimensionError, MeshError, NegativeWeightError, check_name
 from beltrami.mesh.edge_matrix import symmetric_matrix
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
@@ -50,6 +50,8 @@ class Laplacian:
     edges : (p, 2) int, i < j
     edge_weight : (p,) weights w_ij of the edges
     weight_kind, mass_kind : their names
+
+    All its matrices are read-only: ``pair.stiffness.copy()`` is yours.
     """
 
     stiffness: csr_array
@@ -59,6 +61,10 @@ class Laplacian:
     weight_kind: str
     mass_kind: str
     domain: Mesh | Topology | IntrinsicTriangulation | None = field(default=None)
+
+    def __post_init__(self) -> None:
+        read_only_matrix(self.stiffness)
+        read_only_matrix(self.mass)
 
     def __repr__(self) -> str:
         certain = self._of_a_surface or not len(self._negative_edges)
@@ -79,7 +85,7 @@ class Laplacian:
     @cached_property
     def weights(self) -> csr_array:
         """(n, n) symmetric W, zero diagonal."""
-        return symmetric_matrix(self.edges, self.edge_weight, self.n)
+        return read_only_matrix(symmetric_matrix(self.edges, self.edge_weight, self.n))
 
     @cached_property
     def degrees(self) -> Floats:
@@ -103,7 +109,7 @@ class Laplacian:
         """
         self.require_non_negative("averaging")
         self._require_degrees()
-        return csr_array(diagonal_matrix(1 / self.degrees) @ self.weights)
+        return read_only_matrix(csr_array(diagonal_matrix(1 / self.degrees) @ self.weights))
 
     @cached_property
     def normalized(self) -> csr_array:
@@ -113,12 +119,12 @@ class Laplacian:
         """
         self._require_degrees()
         root = diagonal_matrix(1 / np.sqrt(self.degrees))
-        return csr_array(root @ self.stiffness @ root)
+        return read_only_matrix(csr_array(root @ self.stiffness @ root))
 
     @cached_property
     def incidence(self) -> csr_array:
         """(p, n) signed incidence G0; L = G0' diag(edge_weight) G0 for weights of any sign."""
-        return incidence_matrix(self.edges, self.n)
+        return read_only_matrix(incidence_matrix(self.edges, self.n))
 
     @cached_property
     def gradient(self) -> csr_array:
@@ -128,7 +134,7 @@ class Laplacian:
         """
         slightly = (self.edge_weight < 0) & (self.edge_weight >= -self._rounding)
         kept = np.where(slightly, 0, self.edge_weight)
-        return edge_gradient(self.edges, kept, self.n)
+        return read_only_matrix(edge_gradient(self.edges, kept, self.n))
 
     # ---------------------------------------------------------------- functions
 
@@ -144,9 +150,17 @@ class Laplacian:
     def inner(self, f: ArrayLike, g: ArrayLike) -> float:
         """<f, g>_B = f' B g, summed over the columns (definition 6 with a mass, E12).
 
+        Raises DimensionError if f and g have not as many columns.
+
         Chapter items: D6.
         """
-        return float(np.vdot(as_function(f, self.n), self.mass @ as_function(g, self.n)))
+        left, right = as_function(f, self.n), as_function(g, self.n)
+        if left.size != right.size:
+            raise DimensionError(
+                f"an inner product needs functions with as many columns, not {left.shape} and "
+                f"{right.shape}"
+            )
+        return float(np.vdot(left, self.mass @ right))
 
     def norm(self, f: ArrayLike) -> float:
         """Norm sqrt(<f, f>_B).
@@ -205,9 +219,13 @@ class Laplacian:
                 self.edges, self.edge_weight, self.degrees, masses
             )
         if isinstance(self.domain, IntrinsicTriangulation):
-            return bounds.largest_face_eigenvalue(*face_pairs(self.domain, kind))
-        sides = bounds.side_weights(self.domain, self.edge_weight, self.weight_kind)
-        return bounds.largest_face_eigenvalue(sides, bounds.corner_masses(self.domain, sides, kind))
+            parts = face_pairs(self.domain, kind)
+        else:
+            sides = bounds.side_weights(self.domain, self.edge_weight, self.weight_kind)
+            parts = sides, bounds.corner_masses(self.domain, sides, kind)
+        bound = bounds.largest_face_eigenvalue(*parts)
+        # in needles the sum of two cotangents rounds to 0; E62 does not
+        return min(bound, 3.0) if kind == "degree" and self._of_a_surface else bound
 
     def require_non_negative(self, what: str) -> None:
         """Raise NegativeWeightError, with the edges, if a weight is negative."""

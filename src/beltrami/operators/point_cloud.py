@@ -12,7 +12,7 @@ from beltrami._arrays import Floats, frozen
 from beltrami._frozen import Frozen
 from beltrami.errors import MeshError, check_name
 from beltrami.operators.laplacian import laplacian
-from beltrami.operators.neighbours import GRAPH_WEIGHTS, as_points, knn_graph
+from beltrami.operators.neighbours import GRAPH_WEIGHTS, as_points, checked_number, knn_graph
 from beltrami.operators.pair import Laplacian
 from beltrami.operators.tufted import cloud_laplacian
 
@@ -42,7 +42,7 @@ class PointCloud(Frozen):
     DimensionError, NonFiniteError
         If the points are no (n, d) array of finite numbers.
     MeshError
-        If the number of neighbours is not in 1..n-1.
+        If the number of neighbours is no integer in 1..n-1.
 
     Examples
     --------
@@ -59,13 +59,8 @@ class PointCloud(Frozen):
 
     def __init__(self, points: ArrayLike, n_neighbors: int = 30) -> None:
         positions = frozen(as_points(points), np.float64)
-        n = len(positions)
-        if not 1 <= n_neighbors < n:
-            raise MeshError(
-                f"{n_neighbors} neighbours among {n} points",
-                remedy=f"Choose n_neighbors in 1..{n - 1}.",
-            )
-        self.__dict__.update(points=positions, n_neighbors=int(n_neighbors))
+        k = checked_number(n_neighbors, len(positions))
+        self.__dict__.update(points=positions, n_neighbors=k)
 
     def __reduce__(self) -> Any:
         return PointCloud, (self.points, self.n_neighbors)

@@ -90,10 +90,10 @@ def edge_weights(domain: Mesh | Topology, kind: str | Weigher) -> csr_array:
     True
     """
     topology = domain.topology if isinstance(domain, Mesh) else domain
-    if kind == "mean_value":
-        return _unsymmetric_matrix(domain)
     if not callable(kind):
         check_name("weights", kind, (*SYMMETRIC_WEIGHTS, "mean_value"))
+        if kind == "mean_value":
+            return _unsymmetric_matrix(domain)
     return symmetric_matrix(topology.edges, weigh_edges(domain, kind), topology.n_vertices)
 
 
