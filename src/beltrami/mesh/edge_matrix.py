@@ -52,7 +52,9 @@ def _filled(
     indices, data = np.empty(size, np.int32), np.empty(size)
     pattern = (unsigned(indptr), unsigned(indices))
     _fill(unsigned(edges), values, diagonal, laplacian, *pattern, data)
-    return csr_array((data, indices, indptr), shape=(n, n))
+    matrix = csr_array((data, indices, indptr), shape=(n, n))
+    matrix.has_canonical_format = True  # known: scipy need not look
+    return matrix
 
 
 @kernel

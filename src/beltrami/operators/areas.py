@@ -51,7 +51,9 @@ def diagonal_matrix(values: Floats) -> csr_array:
     """Return the (n, n) diagonal matrix with these values."""
     n = len(values)
     pointers = np.arange(n + 1, dtype=np.int32)
-    return csr_array((values, np.arange(n, dtype=np.int32), pointers), shape=(n, n))
+    matrix = csr_array((values, np.arange(n, dtype=np.int32), pointers), shape=(n, n))
+    matrix.has_canonical_format = True  # known: scipy need not look
+    return matrix
 
 
 def consistent_mass(mesh: Mesh) -> csr_array:
