@@ -19,6 +19,7 @@ from typing import NamedTuple
 ROOT = Path(__file__).parents[1]
 ITEMS = ROOT / "docs" / "chapter-items.csv"
 PAGE = ROOT / "docs" / "chapter-map.md"
+ERRATA = ROOT / "docs" / "errata.md"
 SOURCES = ("src/beltrami", "examples")
 TESTS = ("tests",)
 SECTIONS = {
@@ -47,7 +48,7 @@ Where each item of the chapter is computed, and which test checks it. Generated 
 
 Definitions (D), theorems (T), numbered equations (Q), other displayed formulas (U), remarks (R),
 examples (X), figures (F), and what the text says in passing (P). E-numbers are slips of the printed
-text, which the code does not repeat.
+text, which the code does not repeat; they are listed in [errata.md](errata.md).
 """
 _LINE = re.compile(r"^\s*Chapter items: (.*)$", re.MULTILINE)
 _NAME = r"[DTQURXFP]\d+(?:\.\d+)?"
@@ -150,6 +151,7 @@ def page(items: list[Item], functions: list[Mark], tests: list[Mark]) -> str:
     """Return the text of the page."""
     offers, checks = _by_item(functions), _by_item(tests)
     owed = sum(bool(item.owed) for item in items)
+    anchors = errata_anchors()
     lines = [HEAD, f"{len(items)} items: {len(items) - owed} done, {owed} owed."]
     for section, title in SECTIONS.items():
         lines += ["", f"## {section} {title}", ""]
@@ -159,8 +161,18 @@ def page(items: list[Item], functions: list[Mark], tests: list[Mark]) -> str:
             if item.owed:
                 function += ("<br>" if function else "") + f"owed: {item.owed}"
             cells = (item.id, item.place, item.title, function, _links(checks[item.id]))
-            lines.append(f"| {' | '.join(cells)} | {item.errata.replace(' ', ', ')} |")
+            slips = ", ".join(f"[{e}](errata.md#{anchors[e]})" for e in item.errata.split())
+            lines.append(f"| {' | '.join(cells)} | {slips} |")
     return "\n".join(lines) + "\n"
+
+
+def errata_anchors() -> dict[str, str]:
+    """Return the anchor of the heading of each slip: lower case, dashes, no punctuation."""
+    headings = re.findall(r"^### ((E\d+)\. .*)$", ERRATA.read_text(encoding="utf-8"), re.MULTILINE)
+    return {
+        name: re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+        for heading, name in headings
+    }
 
 
 def _by_item(marks: list[Mark]) -> dict[str, list[Mark]]:

@@ -138,6 +138,11 @@ def test_the_page_of_one_item():
     line = next(line for line in text.splitlines() if line.startswith("| D1 "))
     assert line == (
         "| D1 | Definition 1 | A surface | [`f`](../src/a.py)<br>owed: later "
-        "| [`t`](../tests/t.py) | E1, E2 |"
+        "| [`t`](../tests/t.py) | [E1](errata.md#e1-flat-surfaces-and-the-first-fundamental-form), "
+        "[E2](errata.md#e2-what-a-parameterization-must-be) |"
     )
     assert "1 items: 0 done, 1 owed." in text
+
+
+def test_each_slip_has_an_anchor():
+    assert list(chapter_map.errata_anchors()) == [f"E{k}" for k in range(1, 96)]
