@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from PIL import Image
 
 from beltrami.cli.chapters.averaging import averaging
 from beltrami.cli.chapters.chapter import Stage
@@ -84,6 +85,14 @@ def test_distances_through_space_are_shorter(tmp_path):
     assert space == pytest.approx(2, rel=1e-3)
     assert heat_ == pytest.approx(np.pi, rel=0.05)
     assert edges > heat_
+
+
+def test_the_rounding_of_a_tilted_plane_is_not_drawn(tmp_path):
+    plane = grid(9, 9, dimension=3).vertices @ np.linalg.qr([[1, 2, 3], [4, 5, 7], [7, 8, 1]])[0]
+    operators(stage(grid(9, 9, dimension=3).with_vertices(plane), tmp_path))
+    with Image.open(tmp_path / "curvature.png") as picture:
+        drawn = np.asarray(picture.convert("RGB"))[30:440].astype(int)  # without the bars
+    assert np.ptp(drawn, axis=2).max() < 30  # grey, neither red nor blue (58 if it were)
 
 
 def test_gauss_and_bonnet_are_told(tmp_path):

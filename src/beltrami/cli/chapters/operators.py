@@ -63,7 +63,9 @@ def _curvatures(stage: Stage) -> tuple[tuple[str, ...], tuple[Figure, ...], tupl
         f"with the turning of the boundary, add to 2π times {total:.9f}: the Euler "
         f"characteristic is {mesh.euler_characteristic} (Gauss-Bonnet).",
     )
-    limits = [float(np.quantile(np.abs(h), 0.95)) or 1.0 for h in (found.mean, found.gaussian)]
+    least = 1e-6 / mesh.area**0.5, 1e-6 / mesh.area  # of a flat mesh only rounding is left
+    shown = zip((found.mean, found.gaussian), least, strict=True)
+    limits = [max(float(np.quantile(np.abs(values), 0.95)), low) for values, low in shown]
     figure = stage.draw(
         "curvature.png",
         "Mean curvature, half of B⁻¹ L x along the normal: red bulges, blue is hollow. Gaussian "
