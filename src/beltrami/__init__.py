@@ -64,6 +64,8 @@ if TYPE_CHECKING:
     from beltrami.operators.weights import edge_weights as edge_weights
     from beltrami.solvers.factor import Factor as Factor
     from beltrami.solvers.factorize import factorize as factorize
+    from beltrami.spectrum.basis import FourierBasis as FourierBasis
+    from beltrami.spectrum.fourier_basis import fourier_basis as fourier_basis
     from beltrami.surfaces.atlas import Atlas as Atlas
     from beltrami.surfaces.ball_average import ball_average_laplacian as ball_average_laplacian
     from beltrami.surfaces.domain import Disk as Disk
@@ -80,6 +82,7 @@ _HOME = {
     "DirectionalLight": "display.light",
     "Disk": "surfaces.domain",
     "Factor": "solvers.factor",
+    "FourierBasis": "spectrum.basis",
     "Grid": "grids.grid",
     "HeatMethod": "geodesics.heat_method",
     "IntrinsicTriangulation": "operators.intrinsic",
@@ -106,6 +109,7 @@ _HOME = {
     "face_divergence": "operators.gradient",
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
+    "fourier_basis": "spectrum.fourier_basis",
     "geodesic_distance": "geodesics.distance",
     "heat": "diffusion.heat",
     "idft": "grids.transform",

@@ -1,0 +1,68 @@
+"""FourierBasis: eigenpairs of (L, B), and the transform that they make (definition 19)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.sparse import csr_array
+
+from beltrami._arrays import Floats, as_function, read_only, read_only_matrix
+from beltrami.errors import DimensionError, NonFiniteError
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FourierBasis:
+    r"""Eigenpairs :math:`L\varphi_i = \lambda_i B\varphi_i` with :math:`\Phi^T B\Phi = Id`.
+
+    ``fourier_basis`` makes it. With the degree mass :math:`\varphi = D^{-1/2}u` for the
+    eigenvectors u of the normalised Laplacian, and the transform is the :math:`U^T D^{1/2} f` of
+    the chapter (E72).
+
+    Attributes
+    ----------
+    eigenvalues : (k,) ascending
+    eigenvectors : (n, k), one in each column, B-orthonormal
+    mass : (n, n) csr_array B
+    residuals : (k,) norms of :math:`L\varphi - \lambda B\varphi` beside :math:`\lambda B\varphi`
+    """
+
+    eigenvalues: Floats
+    eigenvectors: Floats
+    mass: csr_array
+    residuals: Floats
+
+    def __post_init__(self) -> None:
+        for array in (self.eigenvalues, self.eigenvectors, self.residuals):
+            read_only(array)
+        read_only_matrix(self.mass)
+
+    def __repr__(self) -> str:
+        return f"<FourierBasis: {self.k} of {self.n} eigenpairs>"
+
+    @property
+    def n(self) -> int:
+        """Number of vertices n."""
+        return int(self.eigenvectors.shape[0])
+
+    @property
+    def k(self) -> int:
+        """Number of eigenpairs k."""
+        return int(self.eigenvectors.shape[1])
+
+    def forward(self, f: ArrayLike) -> Floats:
+        r"""Transform a function: :math:`\hat f = \Phi^T B f`, (n,) to (k,) or (n, c) to (k, c)."""
+        return np.asarray(self.eigenvectors.T @ (self.mass @ as_function(f, self.n)))
+
+    def inverse(self, coefficients: ArrayLike) -> Floats:
+        r"""Return the function :math:`\Phi\hat f` of the coefficients, (k,) or (k, c)."""
+        values = np.asarray(coefficients, dtype=np.float64)
+        if values.ndim not in (1, 2) or len(values) != self.k:
+            raise DimensionError(
+                f"coefficients have the shape {values.shape} where ({self.k},) or ({self.k}, c) "
+                "is needed"
+            )
+        if not np.isfinite(values).all():
+            raise NonFiniteError("coefficients have values that are NaN or infinite")
+        return np.asarray(self.eigenvectors @ values)
