@@ -131,7 +131,9 @@ def wave(
     level, drift = part.level(part.mass @ u), part.level(part.mass @ v)
     load = -(part.stiffness_border @ position[held]) + np.zeros_like(u)
     start = (part, u - level, v - drift, load, frames)
-    if method == "spectral":
+    if held.all():
+        states = iter([u] * len(frames))
+    elif method == "spectral":
         states = _spectral(*start, basis, 1e-3 if tolerance is None else tolerance)
     else:
         scheme = leapfrog_states if method == "leapfrog" else implicit_states
