@@ -89,12 +89,12 @@ def test_each_scheme_keeps_its_energy_to_rounding(name, mass, method):
         energies = [
             pair.norm((b - a) / delta) ** 2 / 2 + potential(a, b) / 2 for a, b in pairwise(found)
         ]
-        return np.ptp(energies) / np.mean(energies)
+        return np.ptp(energies) / np.abs(energies).max()
 
     def product(a, b):
         return np.vdot(a, pair.stiffness @ b)
 
-    # implicit: the middle of a step has the energy of its ends, less a half of their difference
+    # implicit: the middle of a step, with its mean velocity, has a constant energy as its ends do
     middle = {
         "leapfrog": product,
         "implicit": lambda a, b: product((a + b) / 2, (a + b) / 2),
@@ -167,7 +167,7 @@ def test_times_are_met_exactly_wherever_they_lie(method):
     assert [time for time, _ in found] == times.tolist()
     assert np.allclose([frame for _, frame in found], exact, atol=1e-3)
     assert np.array_equal(found[10][1], found[11][1])
-    assert np.array_equal(frames(pair, z, None, [0.0, 0.0], method)[1], found[0][1] * 0 + z)
+    assert np.array_equal(frames(pair, z, None, [0.0, 0.0], method)[1], z)
 
 
 def test_a_part_of_a_step_does_not_disturb_the_scheme():

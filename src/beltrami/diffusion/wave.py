@@ -153,7 +153,8 @@ def _framed(
     """Put the states among the held values, and let the means drift by themselves (E60)."""
     for k, (time, state) in enumerate(zip(times.tolist(), states, strict=True)):
         frame = position.copy()
-        frame[part.free] = part.centred(state) + (level + time * drift)
+        if time > 0:
+            frame[part.free] = part.centred(state) + (level + time * drift)
         if progress is not None:
             progress(k + 1, len(times))
         yield time, frame
