@@ -97,7 +97,7 @@ def poisson(
         matrix = csr_array(part.stiffness + screen * part.mass)
         result[part.free] = _screened(part, matrix, inner - screen * (part.mass_border @ fixed))
         return result
-    if not project:
+    if not project and len(part.pins):
         _require_compatible(part, inner)
     result[part.free] = steady_state(part, inner - part.mass @ part.level(inner))
     return result
