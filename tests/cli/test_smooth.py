@@ -17,6 +17,14 @@ CASES = {
     ),
     "taubin": (("--method", "taubin", "--pass-band", 0.2), {"method": "taubin", "pass_band": 0.2}),
     "features": (("--features", 40), {"features": 40.0}),
+    "guided": (
+        ("--method", "guided_normals", "--contrast", 0.2),
+        {"method": "guided_normals", "contrast": 0.2},
+    ),
+    "tv": (
+        ("--method", "tv_normals", "--fidelity", 3),
+        {"method": "tv_normals", "fidelity": 3.0},
+    ),
     "volume": (("--keep", "volume"), {"keep": "volume"}),
 }
 

@@ -18,8 +18,9 @@ def smooth(
     method: Annotated[
         str,
         typer.Option(
-            help="averaging, taubin, windowed_sinc; or with --time: implicit, explicit, "
-            "bilaplacian, curvature_flow, conformal_flow."
+            help="averaging, taubin, windowed_sinc; with --time: implicit, explicit, bilaplacian, "
+            "curvature_flow, conformal_flow; keeping creases: bilateral_normals, guided_normals, "
+            "tv_normals."
         ),
     ] = "averaging",
     steps: Annotated[
@@ -49,6 +50,17 @@ def smooth(
             show_default=False,
         ),
     ] = None,
+    contrast: Annotated[
+        float | None,
+        typer.Option(
+            help="Of bilateral_ and guided_normals: normals that differ by more stay apart.",
+            show_default="0.35",
+        ),
+    ] = None,
+    fidelity: Annotated[
+        float | None,
+        typer.Option(help="Of tv_normals: more is nearer to the mesh.", show_default="1"),
+    ] = None,
     hold_boundary: HoldBoundary = False,
     keep: Annotated[
         str | None, typer.Option(help="volume or centroid.", show_default=False)
@@ -65,7 +77,8 @@ def smooth(
 
     if data is not None and method != "averaging":
         raise typer.BadParameter("a function is diffused by `beltrami heat`")
-    if data is not None and (keep, features, pass_band, time, mass) != (None,) * 5:
+    others = (time, mass, pass_band, features, contrast, fidelity, keep)
+    if data is not None and any(option is not None for option in others):
         raise typer.BadParameter("--data takes --steps, --step, --weights and --hold-boundary")
     (check_mesh_output if data is None else check_values_output)(output)
     with waiting(f"reading {mesh.name}"):
@@ -92,6 +105,8 @@ def smooth(
             weights=weights,
             mass=mass,
             features=features,
+            contrast=contrast,
+            fidelity=fidelity,
             hold_boundary=hold_boundary,
             keep=keep,
             progress=progress,

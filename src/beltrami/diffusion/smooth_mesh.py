@@ -25,6 +25,8 @@ def smooth_mesh(
     weights: str | None = None,
     mass: str | None = None,
     features: float | None = None,
+    contrast: float | None = None,
+    fidelity: float | None = None,
     hold_boundary: bool = False,
     hold: ArrayLike = (),
     keep: str | None = None,
@@ -53,6 +55,14 @@ def smooth_mesh(
         made anew from the surface at each step.
         ``"conformal_flow"`` (10 steps): the same with the stiffness of the start, which does not
         pinch thin parts off.
+
+        Filters of the normals of the faces, which keep creases; then positions that fit them:
+        ``"bilateral_normals"`` (20 ``steps``), ``"guided_normals"`` (10): means over near faces
+        whose normals differ by less than about ``contrast`` (default 0.35).
+        ``"tv_normals"`` (200 ``steps``): normals of small total variation, near the old ones by
+        ``fidelity`` (default 1; more is nearer).
+    contrast, fidelity
+        See there; without a unit.
     time
         No default, because it says how much is smoothed: features below about sqrt(4 time) go, by
         the bi-Laplacian those below 2 pi time^(1/4).
@@ -102,6 +112,8 @@ def smooth_mesh(
         "weights": weights,
         "mass": mass,
         "features": features,
+        "contrast": contrast,
+        "fidelity": fidelity,
     }
     chosen = SMOOTHING_METHODS[check_name("smoothing method", method, tuple(SMOOTHING_METHODS))]
     options = {name: value for name, value in given.items() if value is not None}

@@ -8,14 +8,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from beltrami._arrays import Booleans, Floats
-from beltrami._progress import Progress
+from beltrami._progress import Progress, stages
 from beltrami.diffusion.bilaplacian import bilaplacian_flow
 from beltrami.diffusion.curvature_flow import curvature_flow
+from beltrami.diffusion.face_rings import face_rings
 from beltrami.diffusion.features import feature_edges, weights_along
 from beltrami.diffusion.heat import heat
 from beltrami.diffusion.locality import LocalRows, local_rows
+from beltrami.diffusion.normal_filters import filtered_normals
+from beltrami.diffusion.normal_variation import normals_of_small_variation
 from beltrami.diffusion.smoothing import average, averaging_rows, shares_of, smooth
 from beltrami.diffusion.taubin import taubin_steps
+from beltrami.diffusion.vertex_update import fit_to_normals, require_agreeing_normals
 from beltrami.diffusion.windowed_sinc import filter_rows, sinc_coefficients
 from beltrami.errors import BeltramiError
 from beltrami.mesh.mesh import Mesh
@@ -141,6 +145,43 @@ def _flow(conformal: bool) -> Callable[..., Floats]:
     return run
 
 
+def _of_normals(guided: bool) -> Callable[..., Floats]:
+    def run(
+        mesh: Mesh,
+        held: Booleans,
+        progress: Progress | None,
+        *,
+        steps: int = 10 if guided else 20,
+        contrast: float = 0.35,
+    ) -> Floats:
+        if not (0 < contrast < np.inf):
+            raise BeltramiError(f"the contrast must be > 0, not {contrast}")
+        require_agreeing_normals(mesh)
+        rounds = filtered_normals(mesh, face_rings(mesh.topology), contrast, guided=guided)
+        normals = mesh.face_normals
+        for _ in stages(_whole(steps), progress):
+            normals = next(rounds)
+        return fit_to_normals(mesh.topology, mesh.vertices, normals, held)
+
+    return run
+
+
+def _tv_normals(
+    mesh: Mesh,
+    held: Booleans,
+    progress: Progress | None,
+    *,
+    steps: int = 200,
+    fidelity: float = 1.0,
+) -> Floats:
+    del progress  # it is short
+    if not (0 < fidelity < np.inf):
+        raise BeltramiError(f"the fidelity must be > 0, not {fidelity}")
+    require_agreeing_normals(mesh)
+    normals = normals_of_small_variation(mesh, fidelity, _whole(steps))
+    return fit_to_normals(mesh.topology, mesh.vertices, normals, held)
+
+
 def _needed(time: float | None) -> float:
     if time is None:
         raise BeltramiError(
@@ -169,4 +210,7 @@ SMOOTHING_METHODS = {
     "bilaplacian": SmoothingMethod(_bilaplacian, _FLOW),
     "curvature_flow": SmoothingMethod(_flow(False), _FLOW),
     "conformal_flow": SmoothingMethod(_flow(True), _FLOW),
+    "bilateral_normals": SmoothingMethod(_of_normals(False), ("steps", "contrast")),
+    "guided_normals": SmoothingMethod(_of_normals(True), ("steps", "contrast")),
+    "tv_normals": SmoothingMethod(_tv_normals, ("steps", "fidelity")),
 }
