@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from beltrami.display.light import DirectionalLight as DirectionalLight
     from beltrami.display.light import SpotLight as SpotLight
     from beltrami.display.render import render as render
+    from beltrami.display.spectrum_plot import plot_spectrum as plot_spectrum
     from beltrami.geodesics.distance import geodesic_distance as geodesic_distance
     from beltrami.geodesics.heat_method import HeatMethod as HeatMethod
     from beltrami.grids.convolution import convolve as convolve
@@ -125,6 +126,7 @@ _HOME = {
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",
+    "plot_spectrum": "display.spectrum_plot",
     "poisson": "diffusion.poisson",
     "project": "operators.projection",
     "read_function": "io.function",
