@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import strategies
@@ -49,6 +49,7 @@ def agree(call, check):
     check(found)
 
 
+@settings(max_examples=25)
 @given(problems())
 def test_heat(problem):
     _, pair, f, time, held = problem

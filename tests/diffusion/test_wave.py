@@ -312,6 +312,13 @@ def test_little_input(method):
     assert seen == [(1, 2), (2, 2)]
 
 
+def test_an_endless_number_of_steps_is_refused():
+    pair = laplacian(icosphere(1))
+    for time in (1e12, 1e200):
+        with pytest.raises(BeltramiError, match="Use the implicit method"):
+            wave(pair, np.zeros(pair.n), None, [time])
+
+
 def test_what_is_refused_before_the_first_frame():
     pair = laplacian(MESHES["open"]())
     f = np.zeros(pair.n)

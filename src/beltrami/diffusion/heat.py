@@ -81,7 +81,8 @@ def heat(
         which damp what is rough, by the same factor and still at second order (Rannacher 1984).
         Default 0; 2 suffice for a point of heat.
     basis
-        Eigenpairs of this pair, from the smallest on. Default: all of them, for small meshes.
+        Eigenpairs of this pair, from the smallest on, zero at held vertices. Default: all of
+        them, for small meshes.
     tolerance
         Of the spectral method: how much of the norm of the result the frequencies beyond the
         basis may be, at most. Default 1e-3.

@@ -25,6 +25,7 @@ from beltrami.operators.pair import Laplacian
 from beltrami.spectrum.basis import FourierBasis
 
 WAVE_METHODS = ("leapfrog", "implicit", "spectral")
+_MOST_STEPS = 10_000_000  # of leapfrog, if the caller does not insist
 
 
 def wave(
@@ -68,7 +69,8 @@ def wave(
         Vertices (indices or a mask) whose values stay as they are in f: waves are reflected there.
         At a boundary that is not held they are too, without a change of sign.
     basis
-        Eigenpairs of this pair, from the smallest on. Default: all of them, for small meshes.
+        Eigenpairs of this pair, from the smallest on, zero at held vertices. Default: all of
+        them, for small meshes.
     tolerance
         Of the spectral method: how much the frequencies beyond the basis may be, at most, beside
         the norm of f plus the last time times that of g. Default 1e-3.
@@ -199,6 +201,11 @@ def _checked_step(
         typical = float(np.median(ratio)) if q else 0.0
         return step or (1 / math.sqrt(typical) if typical > 0 else last)
     root = math.sqrt(laplacian.spectral_bound())
+    if step is None and root * last > _MOST_STEPS:
+        raise BeltramiError(
+            f"a time of {last:g} takes more than {_MOST_STEPS:.0e} steps of leapfrog here: the "
+            f"longest allowed is {2 / root:.6g}. Use the implicit method, or give the step"
+        )
     if step is None:
         return 1 / root if root > 0 else last
     if step * root >= 2:  # at the bound itself the fastest mode grows with the time
