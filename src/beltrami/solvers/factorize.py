@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -18,9 +19,12 @@ from beltrami.errors import (
     check_name,
 )
 from beltrami.solvers.cholesky import Cholesky, factorize_cholesky, singular
-from beltrami.solvers.factor import REFINE_ABOVE, Factor
+from beltrami.solvers.cholespy import factorize_cholespy
+from beltrami.solvers.cholmod import factorize_cholmod
+from beltrami.solvers.factor import REFINE_ABOVE, Backend, Factor
 from beltrami.solvers.ldl import factorize_ldl, without_pivot
 from beltrami.solvers.ordering import ORDERINGS, as_positions, order
+from beltrami.solvers.pardiso import factorize_pardiso
 from beltrami.solvers.superlu import factorize_superlu
 from beltrami.solvers.symmetry import (
     is_symmetric,
@@ -29,7 +33,12 @@ from beltrami.solvers.symmetry import (
 )
 from beltrami.solvers.trial import SINGULAR, trial
 
-BACKENDS = ("auto", "cholesky", "ldl", "superlu")
+OTHERS: dict[str, Callable[[csc_array], Backend]] = {
+    "cholespy": factorize_cholespy,
+    "cholmod": factorize_cholmod,
+    "pardiso": factorize_pardiso,
+}
+BACKENDS = ("auto", "cholesky", "ldl", "superlu", *OTHERS)
 WORTHLESS = 1e-9  # backward error of a trial of LDL beyond which refinement is not relied on
 SMALL = 5000  # unknowns below which SuperLU is as fast, and has no kernels to load
 
@@ -58,6 +67,8 @@ def factorize(
         ``"ldl"``: likewise without exchanges, for symmetric matrices of any signs; it counts them
         (``Factor.inertia``).
         ``"superlu"``: LU with exchanges of rows, for every invertible matrix.
+        ``"cholespy"``, ``"cholmod"`` (definite matrices) and ``"pardiso"`` (every invertible one):
+        libraries to compare with, if you have installed them; the ordering is theirs.
         ``"auto"``: from 5000 unknowns on the first of Cholesky, LDL and SuperLU that the matrix
         allows and whose trial solution is good; SuperLU below. The one used is told by
         ``Factor.backend``.
@@ -81,6 +92,8 @@ def factorize(
         If Cholesky was asked for and A is not symmetric positive definite; ``error.rows``.
     UnknownNameError, BeltramiError
         If there is no such backend, ordering or dtype.
+    MissingExtraError
+        If the library of the backend is not installed.
 
     Notes
     -----
@@ -105,12 +118,14 @@ def factorize(
     if kind not in (np.float64, np.float32):
         raise BeltramiError(f"factors are float64 or float32, not {kind}")
     half = kind == np.float32
-    if half and backend in ("ldl", "superlu"):
+    if half and backend not in ("auto", "cholesky"):
         raise BeltramiError(f"{backend} factorises in float64 only")
     if half or backend == "cholesky":
         return _by_cholesky(matrix, positions, ordering, kind)
     if backend == "ldl":
         return _by_ldl(matrix, positions, ordering)
+    if backend in OTHERS:
+        return _by_other(matrix, backend)
     if backend == "superlu" or n < SMALL:
         return Factor(matrix, "superlu", False, factorize_superlu(matrix, is_symmetric(matrix)))
     return _first_that_fits(matrix, positions, ordering)
@@ -176,3 +191,15 @@ def _by_ldl(matrix: csc_array, positions: Floats | None, ordering: str) -> Facto
     if not (condition < SINGULAR and error <= WORTHLESS):
         raise without_pivot(int(elimination.order[np.argmin(solver.pivots)]))
     return Factor(matrix, "ldl", not error <= REFINE_ABOVE, solver)
+
+
+def _by_other(matrix: csc_array, backend: str) -> Factor:
+    """Factorise with another library and try the factor: it may be worthless and not say so."""
+    solver = OTHERS[backend](matrix)
+    condition, error = trial(matrix, solver)
+    if not (condition < SINGULAR and error <= WORTHLESS):
+        raise SingularMatrixError(
+            f"the matrix is singular to working precision, or {backend} cannot do it: its solution "
+            f'of a trial has the relative residual {error:.1e}. Try backend="superlu"'
+        )
+    return Factor(matrix, backend, not error <= REFINE_ABOVE, solver)
