@@ -190,7 +190,11 @@ class NotPositiveDefiniteError(BeltramiError, ValueError):
 
 
 class ConvergenceError(BeltramiError, RuntimeError):
-    """An iteration stopped before it reached its tolerance."""
+    """An iteration stopped before it reached its tolerance; ``residuals`` is its history."""
+
+    def __init__(self, problem: str, residuals: ArrayLike = ()) -> None:
+        self.residuals = np.asarray(residuals, dtype=np.float64)
+        super().__init__(problem)
 
 
 class UnknownNameError(BeltramiError, ValueError):

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csc_array
 
-from beltrami._arrays import Floats, rectangular
-from beltrami.errors import BeltramiError, ConvergenceError, DimensionError, NonFiniteError
+from beltrami._arrays import Floats
+from beltrami.errors import BeltramiError, ConvergenceError, NonFiniteError
+from beltrami.solvers.matrix import as_right_hand_side
 
 REFINE_ABOVE = 1e-14  # backward error of a trial for which every solution is refined
 _ROUNDS = 20  # of refinement, at most
@@ -133,12 +134,7 @@ class Factor:
         ConvergenceError
             If refinement was needed, and did not help.
         """
-        right = np.asarray(rectangular(b), dtype=np.float64)
-        if right.ndim not in (1, 2) or len(right) != self.n:
-            raise DimensionError(
-                f"the right-hand side has the shape {right.shape} where ({self.n},) or "
-                f"({self.n}, c) is needed"
-            )
+        right = as_right_hand_side(b, self.n)
         solution: Any = self._solver.solve(right)
         if not np.isfinite(solution).all():
             where = "right-hand side" if not np.isfinite(right).all() else "solution"

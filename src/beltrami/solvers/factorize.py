@@ -7,13 +7,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
-from scipy.sparse import csc_array, issparse
+from scipy.sparse import csc_array
 
 from beltrami._arrays import Floats
 from beltrami.errors import (
     BeltramiError,
-    DimensionError,
-    NonFiniteError,
     NotPositiveDefiniteError,
     SingularMatrixError,
     check_name,
@@ -23,6 +21,7 @@ from beltrami.solvers.cholespy import factorize_cholespy
 from beltrami.solvers.cholmod import factorize_cholmod
 from beltrami.solvers.factor import REFINE_ABOVE, Backend, Factor
 from beltrami.solvers.ldl import factorize_ldl, without_pivot
+from beltrami.solvers.matrix import as_matrix
 from beltrami.solvers.ordering import ORDERINGS, as_positions, order
 from beltrami.solvers.pardiso import factorize_pardiso
 from beltrami.solvers.superlu import factorize_superlu
@@ -111,7 +110,7 @@ def factorize(
     """
     check_name("backend", backend, BACKENDS)
     check_name("ordering", ordering, ORDERINGS)
-    matrix = _checked(A)
+    matrix = as_matrix(A)
     n = matrix.shape[0]
     positions = None if coordinates is None else as_positions(coordinates, n)
     kind = np.dtype(dtype)
@@ -143,25 +142,6 @@ def _first_that_fits(matrix: csc_array, positions: Floats | None, ordering: str)
         except SingularMatrixError:  # or it needs exchanges: SuperLU tells
             return Factor(matrix, "superlu", False, factorize_superlu(matrix, symmetric))
     return Factor(matrix, "superlu", False, factorize_superlu(matrix, symmetric))
-
-
-def _checked(A: Any) -> csc_array:
-    """Return the matrix by columns, rows sorted, every entry once and not zero."""
-    shape: tuple[int, ...] = getattr(A, "shape", ())
-    if not issparse(A) or len(shape) != 2 or shape[0] != shape[1]:
-        what = shape or type(A).__name__
-        raise DimensionError(f"a square scipy sparse matrix is needed, and this is {what}")
-    given: Any = A
-    if not shape[0] or given.dtype.kind not in "biuf":
-        raise DimensionError("a matrix to factorise is real, and not empty")
-    matrix = csc_array(given, dtype=np.float64)
-    if not np.isfinite(matrix.data).all():
-        raise NonFiniteError("the matrix has entries that are NaN or infinite")
-    if not matrix.has_canonical_format or not matrix.data.all():
-        matrix = matrix.copy()
-        matrix.sum_duplicates()
-        matrix.eliminate_zeros()
-    return matrix
 
 
 def _by_cholesky(matrix: csc_array, positions: Floats | None, ordering: str, dtype: Any) -> Factor:
