@@ -271,6 +271,17 @@ def test_preconditioners(solve):
 
 
 @pytest.mark.parametrize("solve", BOTH)
+def test_a_preconditioner_may_make_much_of_the_kernel(solve):
+    """The factors of L + εB multiply the constants by 1/ε."""
+    pair = laplacian(MESHES["obt"](), mass="degree")
+    f = np.random.default_rng(6).normal(size=pair.n)
+    factor = factorize(csr_array(pair.stiffness + 1e-9 * pair.mass))
+    found = solve(pair.stiffness, pair.stiffness @ f, preconditioner=factor.solve)
+    assert found.iterations <= 4
+    assert np.allclose(found.solution, f - f.mean(), atol=1e-7)
+
+
+@pytest.mark.parametrize("solve", BOTH)
 def test_what_is_refused(solve):
     A = path(5)
     with pytest.raises(BeltramiError, match="symmetric matrix"):

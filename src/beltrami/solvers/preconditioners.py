@@ -17,6 +17,7 @@ from beltrami.errors import (
     NotPositiveDefiniteError,
     check_name,
 )
+from beltrami.solvers.null_space import without
 from beltrami.solvers.symmetry import largest_entries
 from beltrami.solvers.vectors import dot
 
@@ -25,6 +26,7 @@ InPlace: TypeAlias = Callable[[Floats, Floats], None]  # (r, z): the same, writt
 
 PRECONDITIONERS = ("jacobi", "multigrid", "none")
 _SEED = 141_421_356
+_NOTHING = 1e-12  # beside the largest singular value of the coarsest level
 
 
 def make_preconditioner(
@@ -43,7 +45,7 @@ def make_preconditioner(
         If pyamg is not installed.
     """
     if callable(kind):
-        return getattr(kind, "__qualname__", type(kind).__name__), _checked(kind)
+        return getattr(kind, "__qualname__", type(kind).__name__), _checked(kind, basis)
     check_name("preconditioner", kind, PRECONDITIONERS)
     if kind == "multigrid":
         return kind, _multigrid(matrix, basis)
@@ -80,11 +82,14 @@ def _copy(r: Floats, z: Floats) -> None:
     z[:] = r
 
 
-def _checked(function: Preconditioner) -> InPlace:
-    """Give a function of the caller read-only residuals, and look at what it returns."""
+def _checked(function: Preconditioner, basis: csr_array | None) -> InPlace:
+    """Give a function read-only residuals, look at what it returns, and keep out the kernel.
+
+    Rounding puts a little of the kernel into r, of which an approximation of A⁻¹ can make much.
+    """
 
     def apply(r: Floats, z: Floats) -> None:
-        shown = r.view()
+        shown = without(basis, r[None])[0].view()
         shown.flags.writeable = False
         found = np.asarray(function(shown), dtype=np.float64)
         if found.shape != r.shape:
@@ -93,7 +98,7 @@ def _checked(function: Preconditioner) -> InPlace:
             )
         if not np.isfinite(found).all():
             raise NonFiniteError("the preconditioner returns values that are NaN or infinite")
-        z[:] = found
+        z[:] = without(basis, found[None])[0]
 
     return apply
 
@@ -105,8 +110,10 @@ def _multigrid(matrix: csc_array, basis: csr_array | None) -> InPlace:
         apart = basis.nnz <= basis.shape[0]
         smooth = basis @ np.ones((basis.shape[1], 1)) if apart else basis.toarray()
     with _seeded():
-        levels = library.smoothed_aggregation_solver(csr_array(matrix), B=smooth)
-    return _checked(levels.aspreconditioner(cycle="V").matvec)
+        levels = library.smoothed_aggregation_solver(
+            csr_array(matrix), B=smooth, coarse_solver=("pinv", {"rtol": _NOTHING})
+        )
+    return _checked(levels.aspreconditioner(cycle="V").matvec, basis)
 
 
 @contextmanager
