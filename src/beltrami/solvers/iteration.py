@@ -21,7 +21,7 @@ from beltrami.errors import BeltramiError, ConvergenceError, DimensionError, Non
 from beltrami.solvers.matrix import as_right_hand_side
 from beltrami.solvers.null_space import null_space, require_solvable, without
 from beltrami.solvers.preconditioners import InPlace, Preconditioner, make_preconditioner
-from beltrami.solvers.vectors import AT_ONCE, multiply
+from beltrami.solvers.vectors import AT_ONCE, dot, multiply
 
 MOST = 20_000  # iterations, unless the caller says otherwise
 
@@ -153,15 +153,16 @@ def _column(
         x[:] = 0
         trace.arrived(0.0)
         return
-    norm = largest * float(np.linalg.norm(b / largest))  # of b, without overflow
-    b = b / norm
+    b = b / largest  # so that squares do not overflow
+    length = math.sqrt(dot(b, b))
+    b, norm = b / length, largest * length
     x /= norm
     q, before = np.empty_like(x), math.inf
     while True:
         x[:] = without(basis, x[None])[0]
         yield x, q
         r = without(basis, (b - q)[None])[0]
-        size = float(np.linalg.norm(r))
+        size = math.sqrt(dot(r, r))  # not by BLAS: its sums depend on the number of threads
         del trace.sizes[-1:]  # the recursive one
         if trace.arrived(size):
             break

@@ -54,8 +54,9 @@ def require_solvable(basis: csr_array | None, columns: Floats, tolerance: float)
     """
     if basis is None or not columns.size:
         return
-    norms = np.linalg.norm(columns, axis=1, keepdims=True)
-    parts = np.abs(columns @ basis) / np.where(norms > 0, norms, 1)
+    largest = np.abs(columns).max(axis=1, keepdims=True)
+    scaled = columns / np.where(largest > 0, largest, 1)  # whose squares do not underflow
+    parts = np.abs(scaled @ basis) / np.maximum(np.linalg.norm(scaled, axis=1, keepdims=True), 1)
     column, vector = np.unravel_index(parts.argmax(), parts.shape)
     if parts[column, vector] > tolerance:
         raise SingularMatrixError(
