@@ -74,14 +74,16 @@ class Trace:
         if not math.isfinite(size):
             raise NonFiniteError("the iteration overflowed: scale the matrix")
         if size > self.tolerance and len(self.sizes) > self.most:
-            raise self.failure(f"after {self.most} iterations", "Take a better preconditioner")
+            raise self.failure(
+                f"after {self.most} iterations", "Allow more, take a better preconditioner"
+            )
         return size <= self.tolerance
 
     def failure(self, when: str, remedy: str) -> ConvergenceError:
         """Return the error of a column that does not arrive."""
         return ConvergenceError(
             f"the relative residual is {self.sizes[-1]:.1e} {when} (the least was "
-            f"{min(self.sizes):.1e}), and not {self.tolerance:.1e}. {remedy}, allow more, or "
+            f"{min(self.sizes):.1e}), and not {self.tolerance:.1e}. {remedy}, or "
             "factorize the matrix",
             residuals=self.sizes,
         )
