@@ -68,8 +68,11 @@ if TYPE_CHECKING:
     from beltrami.operators.point_cloud import PointCloud as PointCloud
     from beltrami.operators.projection import project as project
     from beltrami.operators.weights import edge_weights as edge_weights
+    from beltrami.solvers.conjugate_gradients import conjugate_gradients as conjugate_gradients
     from beltrami.solvers.factor import Factor as Factor
     from beltrami.solvers.factorize import factorize as factorize
+    from beltrami.solvers.iteration import IterativeSolution as IterativeSolution
+    from beltrami.solvers.minres import minres as minres
     from beltrami.spectrum.basis import FourierBasis as FourierBasis
     from beltrami.spectrum.fourier_basis import fourier_basis as fourier_basis
     from beltrami.surfaces.atlas import Atlas as Atlas
@@ -92,6 +95,7 @@ _HOME = {
     "Grid": "grids.grid",
     "HeatMethod": "geodesics.heat_method",
     "IntrinsicTriangulation": "operators.intrinsic",
+    "IterativeSolution": "solvers.iteration",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
     "ParametricSurface": "surfaces.surface",
@@ -103,6 +107,7 @@ _HOME = {
     "as_mesh": "mesh.convert",
     "ball_average_laplacian": "surfaces.ball_average",
     "colouring": "operators.colouring",
+    "conjugate_gradients": "solvers.conjugate_gradients",
     "convolve": "grids.convolution",
     "curvature": "operators.curvature",
     "dft": "grids.transform",
@@ -126,6 +131,7 @@ _HOME = {
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",
+    "minres": "solvers.minres",
     "plot_spectrum": "display.spectrum_plot",
     "poisson": "diffusion.poisson",
     "project": "operators.projection",
