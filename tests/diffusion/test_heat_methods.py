@@ -201,10 +201,13 @@ def test_a_basis_that_does_not_fit_is_refused():
     stiffer = laplacian(MESHES["closed"](), "combinatorial", "voronoi")
     with pytest.raises(BeltramiError, match="another pair"):
         heat(pair, f, 1.0, "spectral", basis=fourier_basis(stiffer, 10))
+    basis = fourier_basis(pair, 10)
+    longer = FourierBasis(basis.eigenvalues, 1.1 * basis.eigenvectors, pair.mass, np.zeros(10))
+    with pytest.raises(BeltramiError, match="another pair"):
+        heat(pair, f, 1.0, "spectral", basis=longer)
     small = laplacian(icosphere(1))
     with pytest.raises(BeltramiError, match="42 vertices"):
         heat(pair, f, 1.0, "spectral", basis=fourier_basis(small, 10))
-    basis = fourier_basis(pair, 10)
     with pytest.raises(BeltramiError, match="held vertices"):
         heat(pair, f, 1.0, "spectral", basis=basis, hold=[3])
     constant = fourier_basis(pair, 1)

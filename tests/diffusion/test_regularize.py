@@ -65,6 +65,23 @@ def test_the_minimum_with_weights_and_held_values(form, mass, constrained):
         assert objective(pair, f, wrong, t, form, soft) > least * (1 + 1e-6)
 
 
+@pytest.mark.parametrize("form", FORMS)
+def test_held_values_and_weights_against_a_dense_solve(form):
+    """The consistent mass also joins held and free vertices."""
+    mesh = MESHES["cur"]()
+    pair = laplacian(mesh, mass="consistent")
+    rng = np.random.default_rng(299792)
+    f, soft = rng.normal(size=pair.n), rng.uniform(0.5, 2, size=pair.n)
+    held = rng.uniform(size=pair.n) < 0.3
+    L, root, d = pair.stiffness.toarray(), np.diag(np.sqrt(soft)), pair.degrees
+    C = root @ pair.mass @ root if form == "mass" else np.diag(soft)
+    S = L / np.sqrt(np.outer(d, d)) if form == "normalized" else L
+    A, b = C + 0.02 * S, C @ f
+    A[held], b[held] = np.eye(pair.n)[held], f[held]
+    found = regularize(pair, f, 0.02, form, hold=held, weights=soft)
+    assert np.allclose(found, np.linalg.solve(A, b), atol=1e-11)
+
+
 @pytest.mark.chapter("D20")
 @pytest.mark.parametrize("name", IRREGULAR)
 def test_the_mass_form_is_one_implicit_step_of_heat(name):

@@ -230,6 +230,32 @@ def test_frames_are_yours():
         assert np.array_equal(f, start("open")[0])
 
 
+@pytest.mark.parametrize("mass", MASSES)
+def test_a_part_of_a_step_is_a_shorter_step(mass):
+    pair = laplacian(MESHES["bad"](), mass=mass)
+    f, g = start("bad")
+    delta = 1.9 / np.sqrt(pair.spectral_bound())
+    part = 0.7 * delta
+    (found,) = frames(pair, f, g, [part], step=delta)
+    expected = f + part * g - part**2 / 2 * division(pair, pair.stiffness @ f)
+    assert np.allclose(found, expected, atol=1e-11)
+    (found,) = frames(pair, f, g, [part], "implicit", step=delta)
+    middle = np.linalg.solve(
+        (pair.mass + part**2 / 4 * pair.stiffness).toarray(), pair.mass @ (f + part / 2 * g)
+    )
+    assert np.allclose(found, 2 * middle - f, atol=1e-11)
+
+
+def test_the_mean_is_right_after_many_long_steps():
+    """Where the mass is little beside δ²/4 of the stiffness, solves lose digits of it."""
+    mesh = icosphere(3)
+    pair = laplacian(mesh)
+    f, g = oracle.rough_functions(mesh, 2).T
+    step = 2000 / np.sqrt(pair.spectral_bound())
+    ((time, frame),) = wave(pair, f, g, [500 * step], "implicit", step=step)
+    assert pair.mean(frame) == pytest.approx(pair.mean(f) + time * pair.mean(g), rel=1e-13)
+
+
 @pytest.mark.parametrize("method", ["leapfrog", "implicit"])
 def test_a_wave_can_be_run_backwards(method):
     pair = laplacian(MESHES["obt"](), mass="degree")
@@ -267,6 +293,11 @@ def test_a_basis_tells_what_it_leaves_out():
     scale = pair.norm(rough - pair.mean(rough)) + 3 * pair.norm(speed - pair.mean(speed))
     errors = [pair.norm(a - b) / scale for a, b in zip(found, exact, strict=True)]
     assert 0.2 * caught.value.left_out < max(errors) <= caught.value.left_out
+    with pytest.raises(TruncationError) as caught:  # the rest of a velocity swings at √λ or faster
+        wave(pair, 0 * rough, speed, [3], "spectral", basis=basis)
+    speed -= pair.mean(speed)
+    rest = pair.norm(speed - basis.inverse(basis.forward(speed))) / np.sqrt(basis.eigenvalues[-1])
+    assert caught.value.left_out == pytest.approx(rest / (3 * pair.norm(speed)))
 
 
 def test_one_factorisation_for_frames_at_equal_distances(monkeypatch):

@@ -137,7 +137,7 @@ def _minimum(part: FreePart, load: Floats, fixed: Floats, t: float) -> Floats:
         return level + steady_state(part, np.asarray(-pull))
     load = load - part.mass @ level - part.mass_border @ fixed - t * pull
     matrix = csr_array(part.mass + t * part.stiffness)
-    return level + part.centred(factorize(matrix, part.positions).solve(load))
+    return level + factorize(matrix, part.positions).solve(load)
 
 
 def _checked_weights(weights: ArrayLike | None, n: int) -> Floats:
