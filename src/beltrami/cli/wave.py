@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -15,6 +15,7 @@ from beltrami.cli.outputs import check_frames_output
 
 if TYPE_CHECKING:
     from beltrami._arrays import Floats
+    from beltrami.cli.frames import Frames
     from beltrami.display.srgb import Image
     from beltrami.mesh.mesh import Mesh
 
@@ -67,9 +68,8 @@ def wave(
     """Solve the wave equation from --data, or from --bump and --hollow vertices."""
     import numpy as np
 
-    from beltrami.cli.frames import largest, told, write_array, write_pictures
+    from beltrami.cli.frames import told, write_array
     from beltrami.diffusion.wave import wave as swing
-    from beltrami.display.render import render
     from beltrami.io.registry import read_mesh
     from beltrami.operators.laplacian import laplacian
     from beltrami.spectrum.fourier_basis import fourier_basis
@@ -95,7 +95,7 @@ def wave(
     pair = laplacian(read, weights, mass)
     basis = None if modes is None else fourier_basis(pair, modes)
 
-    def states() -> Iterator[tuple[float, Floats]]:
+    def states() -> Frames:
         return swing(pair, start, speed, times, method, step=step, hold=held, basis=basis)
 
     if suffix == ".npy":
@@ -103,25 +103,36 @@ def wave(
             write_array(output, told(states(), progress, frames), frames, start.shape)
         typer.echo(f"wrote {output}: {frames} frames, {pair!r}")
         return
+    height = _draw(read, states, output, suffix, frames, rate, size=size, view=view, up=up)
+    typer.echo(f"wrote {output}: {frames} frames, colours from {-height:.3g} to {height:.3g}")
+
+
+def _draw(
+    mesh: Mesh,
+    states: Callable[[], Frames],
+    output: Path,
+    suffix: str,
+    count: int,
+    rate: float,
+    **look: Any,
+) -> float:
+    """Draw all frames in colours up to half of the largest value, which is returned.
+
+    Of a wave that parts, most frames are below that.
+    """
+    from beltrami.cli.frames import largest, told, write_pictures
+    from beltrami.display.render import render
+
     with waiting("swinging") as progress:
-        height = largest(told(states(), progress, frames)) / 2 or 1.0
+        height = largest(told(states(), progress, count)) / 2 or 1.0
+    look |= {"colormap": "diverging", "limits": (-height, height), "level_set": None}
 
     def draw(time: float, frame: Floats) -> Image:
-        return render(
-            read,
-            frame,
-            size=size,
-            view=view,
-            up=up,
-            caption=f"t = {time:.3g}",
-            colormap="diverging",
-            limits=(-height, height),
-            level_set=None,
-        )
+        return render(mesh, frame, caption=f"t = {time:.3g}", **look)
 
     with waiting("drawing") as progress:
-        write_pictures(output, suffix, told(states(), progress, frames), draw, rate)
-    typer.echo(f"wrote {output}: {frames} frames, colours from {-height:.3g} to {height:.3g}")
+        write_pictures(output, suffix, told(states(), progress, count), draw, rate)
+    return height
 
 
 def _bumps(mesh: Mesh, bump: list[int], hollow: list[int], width: float | None) -> Floats:
