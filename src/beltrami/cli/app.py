@@ -27,7 +27,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-VERBS = (
+for verb in (
     info,
     repair,
     smooth,
@@ -39,8 +39,7 @@ VERBS = (
     integrate,
     render,
     tour,
-)
-for verb in VERBS:
+):
     app.command()(ending_well(verb))
 
 
