@@ -68,7 +68,7 @@ def heat(
         change sign in each step, and those with δλ >> 2 hardly decay. See ``damped_steps``.
         ``"spectral"``: :math:`\hat F_t = e^{-\lambda t} \hat f` (equation 3.10), with ``basis``.
         ``"exact"``: :math:`e^{-t B^{-1} L} f` to 1e-12 of the norm of f, by one factorisation and
-        30 solves (see ``diffuse_exactly``).
+        30 solves (see ``diffuse_exactly``); one more factorisation with a source or held values.
     steps
         Number of steps of length δ = time / steps. Default: 10, or the fewest explicit ones for
         which no mode is overshot (δ <= 1 / bound).
