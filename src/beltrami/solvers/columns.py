@@ -71,7 +71,7 @@ class Columns:
                     panel[r : r + ROWS, first:last] @ factor[offset : offset + last - first]
                     for panel, first, last, offset in self._pieces(0, len(S))
                 ),
-            )  # type: ignore[misc]
+            )
 
     def _pieces(self, start: int, stop: int) -> Iterator[tuple[NDArray[Any], int, int, int]]:
         """Cut columns at the panels: panel, first and last column in it, offset from start."""

@@ -24,6 +24,8 @@ from beltrami.solvers.sign_rule import fix_signs
 SMALL = 500  # unknowns up to which LAPACK is as fast
 SINGLE = 1e-9  # tolerances below it need float64 throughout
 _EQUAL = 1e-6  # relative difference of eigenvalues that may be one of high multiplicity
+_ZERO = 1e-10  # what a semi-definite pencil may round to, below zero
+_GUARDS = 8  # pairs that the dense method keeps beyond those wanted, to count before them
 _SEARCHES = 6  # for eigenpairs that a count has shown to be missing
 
 
@@ -109,7 +111,7 @@ def eigenpairs(
     work = _Work(
         pencil, near / pencil.unit, k, tol, seed, np.zeros(0), np.zeros((pencil.n, 0)), np.zeros(0)
     )
-    _find(work, clock)
+    _find(work, certify, clock)
     if certify or (work.method == "lanczos" and _crowded(work)):
         _complete(work)
         clock.append(("certify", time.perf_counter()))
@@ -124,32 +126,36 @@ def eigenpairs(
     return Eigenpairs(*result, computation)
 
 
-def _find(work: _Work, clock: list[tuple[str, float]]) -> None:
-    """Compute what is not in the kernel: dense, from below, or around a shift inside."""
+def _find(work: _Work, certify: bool, clock: list[tuple[str, float]]) -> None:
+    """Compute what is not in the kernel: dense, from below, or around a shift inside.
+
+    To certify a kernel takes the first eigenvalue beyond it.
+    """
     pencil, kernel = work.pencil, work.pencil.kernel.shape[1]
     from_below = work.near <= 0
-    wanted = min(work.k - kernel if from_below else work.k, pencil.n - kernel)
+    wanted = min(max(work.k - kernel, int(certify)) if from_below else work.k, pencil.n - kernel)
     if wanted <= 0:
         return
     if pencil.n <= SMALL or largest_basis(wanted) + kernel > pencil.n:
         work.method = "dense"
-        work.values, work.vectors = dense_pairs(pencil, wanted, work.near)
+        work.values, work.vectors = dense_pairs(pencil, wanted + _GUARDS, work.near)
         work.residuals = residuals(pencil, work.vectors, work.values, np.float64).norms
-        work.definite = bool(work.values[0] >= 0) and from_below
+        work.definite = bool(work.values[0] >= -_ZERO) and from_below
         clock.append(("dense", time.perf_counter()))
         return
     work.method = "lanczos"
     dtype = np.float64 if work.tol < SINGLE or not from_below else np.float32
-    settings = settings_for(wanted, dtype, work.tol)
+    settings = settings_for(wanted, work.tol)
     inverse = definite_inverse(pencil, settings.shift, dtype) if from_below else None
     work.definite = inverse is not None
     if inverse is not None:
         _lanczos(work, inverse, wanted, clock)
-        if work.values[0] >= 0:
+        if work.values[0] >= -_ZERO:
             return
     work.definite = False
     wanted = min(work.k, pencil.n - kernel)
-    inverse = signed_inverse(pencil, work.near, 1e-3 / work.k)
+    near = min(work.near, pencil.bound)
+    inverse = signed_inverse(pencil, near, 1e-3 / work.k)
     _lanczos(work, inverse, wanted, clock)
 
 
@@ -157,7 +163,7 @@ def _lanczos(work: _Work, inverse: Inverse, wanted: int, clock: list[tuple[str, 
     """Search, and polish what was found."""
     clock.append(("factorize", time.perf_counter()))
     pencil, kernel = work.pencil, work.pencil.kernel
-    settings = settings_for(wanted, inverse.dtype, work.tol)
+    settings = settings_for(wanted, work.tol)
     found = search(pencil, inverse, kernel, wanted, settings, work.seed)
     clock.append(("search", time.perf_counter()))
     polished = polish(pencil, found.inverse, found.vectors, found.values, kernel, wanted, work.tol)
@@ -181,6 +187,9 @@ def _crowded(work: _Work) -> bool:
 def _complete(work: _Work) -> None:
     """Count the eigenvalues; search for missing ones, orthogonally to those that are known."""
     pencil = work.pencil
+    if len(work.values) + pencil.kernel.shape[1] == pencil.n:
+        work.counted = np.inf
+        return
     for attempt in range(_SEARCHES):
         values = np.concatenate([np.zeros(pencil.kernel.shape[1]), work.values])
         doubts = np.concatenate([np.zeros(pencil.kernel.shape[1]), work.residuals * work.values])
@@ -201,7 +210,7 @@ def _complete(work: _Work) -> None:
 def _search_again(work: _Work, missing: int, attempt: int) -> None:
     """Find eigenpairs orthogonal to the known ones, and put them among those."""
     pencil = work.pencil
-    settings = settings_for(missing, np.float64, work.tol)
+    settings = settings_for(missing, work.tol)
     inverse = (
         definite_inverse(pencil, work.shift, work.precision) if work.definite else None
     ) or signed_inverse(pencil, work.near, 1e-3 / work.k)
@@ -226,6 +235,8 @@ def _select(work: _Work, L: csr_array) -> tuple[Floats, Floats, Floats]:
     X = work.vectors if simple else np.hstack([kernel, work.vectors])[:, chosen]
     vectors = pencil.physical(X[:, : len(chosen)])
     null = np.flatnonzero(chosen < len(zeros))
+    constants = vectors[:, null]
+    vectors[:, null] = np.where(constants > 0, constants.max(axis=0, initial=0.0), 0.0)
     norms = np.concatenate([zeros, work.residuals])[chosen]
     image = np.linalg.norm(L @ vectors[:, null], axis=0)
     size = np.linalg.norm(abs(L) @ np.abs(vectors[:, null]), axis=0)

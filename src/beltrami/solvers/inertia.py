@@ -15,7 +15,7 @@ _CLEAR = 10.0  # times what is not known about two neighbours, for a gap to coun
 
 
 class Census(NamedTuple):
-    """``there`` eigenvalues are nearer than ``radius`` to a number; ``found`` of them are listed."""
+    """``there`` eigenvalues are nearer than ``radius`` to a number; ``found`` are listed."""
 
     radius: float
     there: int
@@ -48,15 +48,13 @@ def census(
     """
     order = np.argsort(np.abs(values - near), kind="stable")
     distance, doubt = np.abs(values - near)[order], doubts[order]
-    for i in range(min(k, len(values)), 0, -1):
-        if i == len(values):
-            gap = distance[-1] * 0.01
-        else:
-            gap = distance[i] - distance[i - 1]
-            if not gap > _CLEAR * (doubt[i] + doubt[i - 1]):
-                continue
+    distance, doubt = np.concatenate([[0.0], distance]), np.concatenate([[0.0], doubt])
+    for i in range(min(k, len(values) - 1), -1, -1):
+        gap = distance[i + 1] - distance[i]
+        if not gap > _CLEAR * (doubt[i + 1] + doubt[i]):
+            continue
         for part in (0.5, 0.4, 0.65):
-            radius = float(distance[i - 1] + part * gap)
+            radius = float(distance[i] + part * gap)
             try:
                 there = count_below(pencil, near + radius)
                 there -= 0 if definite else count_below(pencil, near - radius)

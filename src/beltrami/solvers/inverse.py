@@ -16,6 +16,9 @@ from beltrami.solvers.ldl import factorize_ldl
 from beltrami.solvers.many import solve_many, solve_many_transposed
 from beltrami.solvers.pencil import Block, Pencil
 
+_SEED = 577_215_664
+_TRIES = 6
+_HIT = 1e7  # growth of a vector, times the step: the shift is an eigenvalue
 _FAINT = 8.0  # units of rounding of the diagonal: a smaller shift drowns in them
 
 
@@ -65,7 +68,10 @@ class Inverse:
 
 def definite_inverse(pencil: Pencil, shift: float, dtype: DTypeLike) -> Inverse | None:
     """Factorise with Cholesky; in float64 where float32 does not do, None if not definite."""
-    size = abs(shift) / float(np.median(pencil.stiffness.diagonal()))
+    diagonal = pencil.stiffness.diagonal()
+    if not (diagonal > shift).all():
+        return None
+    size = abs(shift) / max(float(np.median(diagonal)), -shift)
     for kind in (np.dtype(dtype), np.dtype(np.float64)):
         if size < _FAINT * float(np.finfo(kind).eps):
             continue
@@ -86,15 +92,20 @@ def signed_inverse(pencil: Pencil, shift: float, step: float) -> Inverse:
     SingularMatrixError
         If no shift nearby can be factorised.
     """
-    tries = 6
-    for i in range(tries):
+    trial = np.random.default_rng(_SEED).standard_normal((pencil.n, 8))
+    failure = SingularMatrixError("every shift nearby is an eigenvalue, to working precision")
+    for i in range(_TRIES):
         moved = shift + step * i * (-1) ** i
         try:
-            return _inverse(pencil, moved, factorize_ldl(pencil.shifted(moved), pencil.elimination))
-        except SingularMatrixError:
-            if i == tries - 1:
-                raise
-    raise AssertionError
+            factor = factorize_ldl(pencil.shifted(moved), pencil.elimination)
+        except SingularMatrixError as error:
+            failure = error
+            continue
+        inverse = _inverse(pencil, moved, factor)
+        growth = float(np.abs(inverse(trial)).max())
+        if growth * step < _HIT:
+            return inverse
+    raise failure
 
 
 def better_inverse(pencil: Pencil, inverse: Inverse) -> Inverse:

@@ -16,7 +16,6 @@ from beltrami.solvers.pencil import Block, Pencil
 
 _LONGEST = 4  # steps between two reorthogonalisations, at most
 _KEPT = 0.35  # of the digits of the precision may be lost
-_WEAK = 3e-3  # a direction shorter than this carries much of the old ones: reorthogonalise now
 
 
 class Ritz(NamedTuple):
@@ -86,9 +85,9 @@ class Lanczos:
         C += self._project(W, recent)
         diagonal = C[-b:]
         self._H[j:, j:] = (diagonal + diagonal.T) / 2
-        new, R, lost = new_block(self.pencil, W, size, self.basis, self._random)
+        new, R = new_block(self.pencil, W, size, self.basis, self._random)
         self._since += 1
-        if self.basis.count > b and (self._since >= self._period or lost < _WEAK or self._arrow):
+        if self.basis.count > b and (self._since >= self._period or self._arrow):
             q, new = self._reorthogonalize(q, new)
         self.basis.append(new)
         self._before, self._last, self._coupling, self._arrow = q, new, R, False
@@ -162,7 +161,7 @@ class Lanczos:
         self.basis.append(self._last)
 
 
-def _next_period(loss: float, steps: int, dtype: np.dtype) -> int:  # type: ignore[type-arg]
+def _next_period(loss: float, steps: int, dtype: np.dtype) -> int:
     """Return after how many steps the loss of orthogonality would reach the root of rounding."""
     rounding = float(np.finfo(dtype).eps)
     growth = max(math.log(max(loss, rounding) / rounding) / max(steps, 1), 1e-3)

@@ -6,7 +6,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import DTypeLike
 
 from beltrami._arrays import Floats
 from beltrami.errors import ConvergenceError
@@ -38,9 +37,9 @@ class Found(NamedTuple):
     solves: int
 
 
-def settings_for(k: int, dtype: DTypeLike, tol: float) -> Settings:
+def settings_for(k: int, tol: float) -> Settings:
     """Return what the study found to be fast for k eigenpairs."""
-    tolerance = 2e-6 if np.dtype(dtype) == np.float32 else 2 * tol
+    tolerance = 2 * min(tol, 1e-6)
     return Settings(_block(k), -0.05 if k <= 80 else -0.1, max(4, int(0.03 * k)), tolerance)
 
 

@@ -63,6 +63,11 @@ class Pencil:
     def _mass_in_single(self) -> csr_array:
         return csr_array(self.mass.astype(np.float32))
 
+    @property
+    def bound(self) -> float:
+        """Return a number that no eigenvalue exceeds (Gershgorin); infinite for a full mass."""
+        return float(abs(self.stiffness).sum(axis=1).max()) if self.plain else np.inf
+
     def weighed(self, X: Block) -> Block:
         """Return B X, which is X itself where the mass is the identity."""
         if self.plain:

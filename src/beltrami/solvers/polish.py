@@ -19,6 +19,7 @@ _PASSES = 30
 _SAFE = 0.7  # of the tolerance: columns below it are left alone
 _STALLED = 0.2  # a pass that leaves more than this of the residual has stalled
 _PATIENCE = 3  # passes that stall before the factor is made in float64
+_LARGE = 1e-3  # a correction of which single precision keeps too little
 _MOST = 64  # directions that one Davidson step adds
 
 
@@ -63,6 +64,7 @@ def polish(
     """
     history: list[float] = []
     stalled = solves = 0
+    fresh = True
     _clear(pencil, X, known)
     for count in range(_PASSES):
         first = count == 0
@@ -71,12 +73,14 @@ def polish(
         _clear(pencil, now.corrections, known)
         nearest = np.argsort(np.abs(values - inverse.shift), kind="stable")[:wanted]
         history.append(float(now.norms[nearest].max(initial=0.0)))
-        if not first and (now.norms <= now.limits)[nearest].all():
+        if not fresh and (now.norms <= now.limits)[nearest].all():
             return Polished(X, values, now.norms, tuple(history), solves)
         if stalled % 2:
             X, values = _with_davidson(pencil, inverse, X, values, now)
+            fresh = False
         else:
-            X, values = _improved(pencil, inverse, X, values, now, first)
+            values, change = _improved(pencil, inverse, X, values, now, fresh)
+            fresh = change > _LARGE
         order = np.argsort(values, kind="stable")
         if (np.diff(order) < 0).any():
             X, values = np.ascontiguousarray(X[:, order]), values[order]
@@ -116,15 +120,18 @@ def _clear(pencil: Pencil, X: Block, known: Floats) -> None:
 
 
 def _improved(
-    pencil: Pencil, inverse: Inverse, X: Floats, values: Floats, now: _Pass, first: bool
-) -> tuple[Floats, Floats]:
-    """Take the corrections away, and turn the columns into Ritz vectors."""
+    pencil: Pencil, inverse: Inverse, X: Floats, values: Floats, now: _Pass, fresh: bool
+) -> tuple[Floats, float]:
+    """Take the corrections away, and turn the columns into Ritz vectors, in place.
+
+    Returns the values, and how much of that was in the precision of the inverse.
+    """
     E, columns = now.corrections, now.columns
-    small = projected(pencil, X, E, columns, values - inverse.shift, first)
-    gentle = not first and E.dtype == np.float32
-    distances, S = rotation(small, gentle)
-    rotate(X, E, columns, S, first)
-    return X, inverse.shift + distances
+    small, change = projected(pencil, X, E, columns, values - inverse.shift, fresh)
+    single = E.dtype == np.float32
+    distances, S = rotation(small, gentle=single and not fresh)
+    rotate(X, E, columns, S, fresh)
+    return inverse.shift + distances, change if single else 0.0
 
 
 def _with_davidson(

@@ -24,13 +24,14 @@ class Projected(NamedTuple):
 
 
 def projected(
-    pencil: Pencil, X: Floats, E: Block, columns: Integers, distances: Floats, first: bool
-) -> Projected:
+    pencil: Pencil, X: Floats, E: Block, columns: Integers, distances: Floats, fresh: bool
+) -> tuple[Projected, float]:
     r"""Project A = L - σB on Z = X - E, where E = A⁻¹(LX - BXΛ), so that AZ = BX(Λ - σ).
 
     So :math:`Z^TAZ = (G - C^T)(\Lambda - \sigma)` and :math:`Z^TBZ = G - C - C^T + E^TBE` with
     :math:`G = X^TBX`, :math:`C = X^TBE`: no product with A, and what is large (G) is known well
-    while what is computed in single precision (C) is small. E has the chosen columns only.
+    while what is computed in single precision (C) is small. E has the chosen columns only. If not
+    ``fresh``, G is taken to be the identity. The largest entry of C is told as well.
     """
     k, exact = X.shape[1], E.dtype == np.float64
     part = np.zeros((k, len(columns)), E.dtype)
@@ -39,16 +40,17 @@ def projected(
     for r in range(0, len(X), ROWS):
         rows = BX[r : r + ROWS]
         part += rows.astype(E.dtype, copy=False).T @ E[r : r + ROWS]
-        if first or exact:
+        if fresh or exact:
             G += X[r : r + ROWS].T @ rows
-    G = (G + G.T) / 2 if first or exact else np.eye(k)
+    G = (G + G.T) / 2 if fresh or exact else np.eye(k)
     C = np.zeros((k, k))
     C[:, columns] = part
     gram = G - C - C.T
-    if first or exact:
+    if len(columns):
         gram[np.ix_(columns, columns)] += E.T @ pencil.weighed(E)
     operator = (G - C.T) * distances
-    return Projected((operator + operator.T) / 2, (gram + gram.T) / 2)
+    small = Projected((operator + operator.T) / 2, (gram + gram.T) / 2)
+    return small, float(np.abs(C).max(initial=0.0))
 
 
 def rotation(small: Projected, gentle: bool) -> tuple[Floats, Floats]:
@@ -62,15 +64,15 @@ def rotation(small: Projected, gentle: bool) -> tuple[Floats, Floats]:
         if found is not None:
             return found
     values, S = scipy.linalg.eigh(*small, check_finite=False)
-    nearest = _matching(small, values, S)
+    nearest = _matching(small)
     return values[nearest], S[:, nearest] * np.where(np.diag(S[:, nearest]) < 0, -1.0, 1.0)
 
 
-def _matching(small: Projected, values: Floats, S: Floats) -> Integers:
-    """Order the Ritz pairs as the columns were: by their values."""
-    places = np.empty(len(values), np.int64)
+def _matching(small: Projected) -> Integers:
+    """Return for each column the Ritz pair that has its place in the order of the values."""
+    places = np.empty(len(small.gram), np.int64)
     places[np.argsort(np.diag(small.operator) / np.diag(small.gram), kind="stable")] = np.arange(
-        len(values)
+        len(places)
     )
     return places
 
@@ -88,12 +90,12 @@ def _first_order(small: Projected) -> tuple[Floats, Floats] | None:
     return None
 
 
-def rotate(X: Floats, E: Block, columns: Integers, S: Floats, first: bool) -> None:
+def rotate(X: Floats, E: Block, columns: Integers, S: Floats, fresh: bool) -> None:
     """Replace X by (X - E) S in place, the small part of S in the precision of E."""
     exact = E.dtype == np.float64
     change = S - np.eye(len(S))
     large = np.flatnonzero(
-        np.abs(change).max(axis=0) > (0 if exact else _TURNED[0 if first else 1])
+        np.abs(change).max(axis=0) > (0 if exact else _TURNED[0 if fresh else 1])
     )
     exactly = np.ascontiguousarray(S[:, large])
     small = change.astype(E.dtype)

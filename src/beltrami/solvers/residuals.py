@@ -15,7 +15,7 @@ _UNITS = 8.0  # of rounding in one residual
 
 
 class Residuals(NamedTuple):
-    """``vectors`` (n, c) Lx - λBx; ``norms`` (c,) beside λBx; ``rounding`` (c,), the least there is."""
+    """``vectors`` (n, c) Lx - λBx; ``norms`` (c,) beside λBx; ``rounding`` (c,) of the norms."""
 
     vectors: Block
     norms: Floats

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -36,7 +36,7 @@ class FourierBasis:
     eigenvectors: Floats
     mass: csr_array
     residuals: Floats
-    computation: Computation = Computation()
+    computation: Computation = field(default_factory=Computation)
 
     def __post_init__(self) -> None:
         for array in (self.eigenvalues, self.eigenvectors, self.residuals):
@@ -58,7 +58,7 @@ class FourierBasis:
 
     @cached_property
     def orthogonality(self) -> float:
-        r"""Largest entry of :math:`\Phi^T B \Phi - Id`, computed when asked for: n k² operations."""
+        r"""Largest entry of :math:`\Phi^T B \Phi - Id`; n k² operations, when asked for."""
         gram = self.eigenvectors.T @ (self.mass @ self.eigenvectors)
         return float(np.abs(gram - np.eye(self.k)).max(initial=0.0))
 

@@ -28,7 +28,7 @@ def fourier_basis(
     hold: ArrayLike = (),
     certify: bool = False,
 ) -> FourierBasis:
-    r"""Return k eigenpairs of (L, B), :math:`L\varphi = \lambda B\varphi`, :math:`\Phi^TB\Phi = Id`.
+    r"""Return k eigenpairs, :math:`L\varphi = \lambda B\varphi` with :math:`\Phi^TB\Phi = Id`.
 
     The vectors oscillate more the larger the eigenvalue is: :math:`\lambda = \langle L\varphi,
     \varphi\rangle`. With the degree mass they are :math:`D^{-1/2}u` for the eigenvectors u of the
