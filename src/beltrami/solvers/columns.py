@@ -9,7 +9,14 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 ROWS = 8192  # of a product at a time: what is between two multiplications stays in the cache
+FEW = 2048  # likewise, of hundreds of columns
 _WIDTH = 256  # columns of a panel: to grow copies nothing
+
+
+def subtract_product(W: NDArray[Any], Q: NDArray[Any], C: NDArray[Any]) -> None:
+    """Take Q C away from W in place."""
+    for r in range(0, len(W), ROWS):
+        W[r : r + ROWS] -= Q[r : r + ROWS] @ C
 
 
 class Columns:
@@ -44,21 +51,20 @@ class Columns:
         """Take Q C away from W in place, for the first columns, as many as C has rows."""
         for panel, first, last, offset in self._pieces(0, len(C)):
             part = C[offset : offset + last - first]
-            for r in range(0, self.n, ROWS):
-                W[r : r + ROWS] -= panel[r : r + ROWS, first:last] @ part
+            subtract_product(W, panel[:, first:last], part)
 
     def times(self, S: NDArray[Any], dtype: DTypeLike) -> NDArray[Any]:
         """Return Q S for the first columns, as many as S has rows."""
         X = np.empty((self.n, S.shape[1]), dtype)
         for r, part in self._products(S):
-            X[r : r + ROWS] = part
+            X[r : r + len(part)] = part
         return X
 
     def contract(self, S: NDArray[Any]) -> None:
         """Replace Q by Q S, in place: S has no more columns than rows."""
         for r, part in self._products(S):
             for panel, first, last, offset in self._pieces(0, S.shape[1]):
-                panel[r : r + ROWS, first:last] = part[:, offset : offset + last - first]
+                panel[r : r + len(part), first:last] = part[:, offset : offset + last - first]
         self.count = S.shape[1]
         del self._panels[-(-self.count // _WIDTH) :]
 

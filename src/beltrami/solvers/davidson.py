@@ -6,7 +6,7 @@ import numpy as np
 import scipy.linalg
 
 from beltrami._arrays import Floats
-from beltrami.solvers.columns import ROWS
+from beltrami.solvers.columns import FEW
 from beltrami.solvers.pencil import Block, Pencil
 
 _DEPENDENT = 1e-8  # eigenvalue of a Gram matrix beside the largest that counts as zero
@@ -32,8 +32,8 @@ def enriched(
     chosen = np.sort(np.argsort(np.abs(found - shift), kind="stable")[:k])
     S = np.ascontiguousarray(S[:, chosen])
     result = np.empty_like(X)
-    for r in range(0, len(X), ROWS):
-        result[r : r + ROWS] = X[r : r + ROWS] @ S[:k] + E[r : r + ROWS] @ S[k:]
+    for r in range(0, len(X), FEW):
+        result[r : r + FEW] = X[r : r + FEW] @ S[:k] + E[r : r + FEW] @ S[k:]
     return result, found[chosen]
 
 

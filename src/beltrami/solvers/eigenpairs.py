@@ -139,7 +139,9 @@ def _find(work: _Work, certify: bool, clock: list[tuple[str, float]]) -> None:
     if pencil.n <= SMALL or largest_basis(wanted) + kernel > pencil.n:
         work.method = "dense"
         work.values, work.vectors = dense_pairs(pencil, wanted + _GUARDS, work.near)
-        work.residuals = residuals(pencil, work.vectors, work.values, np.float64).norms
+        everything = slice(0, len(work.values))
+        found = residuals(pencil, work.vectors, everything, work.values, np.float64)
+        work.residuals = found.norms
         work.definite = bool(work.values[0] >= -_ZERO) and from_below
         clock.append(("dense", time.perf_counter()))
         return
@@ -231,9 +233,7 @@ def _select(work: _Work, L: csr_array) -> tuple[Floats, Floats, Floats]:
     values = np.concatenate([zeros, work.values])
     chosen = np.sort(np.argsort(np.abs(values - work.near), kind="stable")[: work.k])
     chosen = chosen[np.argsort(values[chosen], kind="stable")]
-    simple = kernel.shape[1] == 0 and (chosen == np.arange(len(chosen))).all()
-    X = work.vectors if simple else np.hstack([kernel, work.vectors])[:, chosen]
-    vectors = pencil.physical(X[:, : len(chosen)])
+    vectors = pencil.physical(kernel, work.vectors, chosen)
     null = np.flatnonzero(chosen < len(zeros))
     constants = vectors[:, null]
     vectors[:, null] = np.where(constants > 0, constants.max(axis=0, initial=0.0), 0.0)

@@ -9,13 +9,13 @@ import numpy as np
 import scipy.linalg
 
 from beltrami._arrays import Floats
-from beltrami.solvers.columns import Columns
+from beltrami.solvers.columns import Columns, subtract_product
 from beltrami.solvers.inverse import Inverse
 from beltrami.solvers.orthonormal import new_block, orthonormalize
 from beltrami.solvers.pencil import Block, Pencil
 
 _LONGEST = 4  # steps between two reorthogonalisations, at most
-_KEPT = 0.35  # of the digits of the precision may be lost
+_KEPT = 0.45  # of the digits of the precision may be lost
 
 
 class Ritz(NamedTuple):
@@ -76,7 +76,7 @@ class Lanczos:
         self._H[:j, j:] = self._H[j:, :j].T
         W = self.inverse(self.pencil.weighed(q))
         self.solves += b
-        size = float(np.sqrt(np.abs((W * self.pencil.weighed(W)).sum(axis=0, dtype=float)).max()))
+        size = math.sqrt(abs(float(np.vdot(W, self.pencil.weighed(W)))) / b)
         recent = q if self._arrow or j == 0 else np.hstack([self._before, q])
         C = self._project(W, recent)
         if self._arrow:
@@ -94,7 +94,7 @@ class Lanczos:
 
     def _project(self, W: Block, recent: Block) -> Floats:
         C = recent.T @ self.pencil.weighed(W)
-        W -= recent @ C
+        subtract_product(W, recent, C)
         return C.astype(np.float64)
 
     def _padded(self, j: int) -> Floats:

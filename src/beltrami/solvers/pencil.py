@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array, csr_array
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Floats, Integers
 from beltrami._jit import kernel
 from beltrami.solvers.elimination import Elimination
 from beltrami.solvers.null_space import kernel_vectors
@@ -80,10 +80,10 @@ class Pencil:
         L, B = self.matrices
         return csc_array(csr_array(L - shift * B).T)  # symmetric: its rows are its columns
 
-    def physical(self, X: Floats) -> Floats:
-        """Return the vectors of (L, B): divided by D, and in the order in which they came."""
-        phi = np.empty(X.shape)
-        _leave(X, self.root, self.elimination.order, phi)
+    def physical(self, known: Floats, X: Floats, chosen: Integers) -> Floats:
+        """Return chosen columns of [known, X] as vectors of (L, B), in the order in which they came."""
+        phi = np.empty((self.n, len(chosen)))
+        _leave(known, X, chosen, self.root, self.elimination.order, phi)
         return phi
 
 
@@ -153,9 +153,10 @@ def _permute(
 
 
 @kernel
-def _leave(X: Any, root: Any, order: Any, phi: Any) -> None:
-    """Row t of the first columns of X, over D, is row ``order[t]``."""
+def _leave(known: Any, X: Any, chosen: Any, root: Any, order: Any, phi: Any) -> None:
+    """Row t of the chosen columns of [known, X], over D, is row ``order[t]``."""
+    c = known.shape[1]
     for t in range(order.size):
-        to, source, inverse = phi[order[t]], X[t], 1 / root[t]
+        to, before, source, inverse = phi[order[t]], known[t], X[t], 1 / root[t]
         for j in range(to.size):
-            to[j] = source[j] * inverse
+            to[j] = (source[chosen[j] - c] if chosen[j] >= c else before[chosen[j]]) * inverse

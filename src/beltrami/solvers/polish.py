@@ -8,6 +8,7 @@ import numpy as np
 
 from beltrami._arrays import Floats, Integers
 from beltrami.errors import ConvergenceError
+from beltrami.solvers.columns import subtract_product
 from beltrami.solvers.davidson import enriched
 from beltrami.solvers.inverse import Inverse, better_inverse
 from beltrami.solvers.pencil import Block, Pencil
@@ -99,7 +100,7 @@ def _corrections(pencil: Pencil, inverse: Inverse, X: Floats, values: Floats, to
     parts, columns = [np.empty((len(X), 0), inverse.dtype)], []
     for start in range(0, len(values), _BLOCK):
         stop = min(start + _BLOCK, len(values))
-        found = residuals(pencil, X[:, start:stop], values[start:stop], inverse.dtype)
+        found = residuals(pencil, X, slice(start, stop), values[start:stop], inverse.dtype)
         norms[start:stop] = found.norms
         limits[start:stop] = np.maximum(tol, found.rounding)
         chosen = np.flatnonzero(found.norms > _SAFE * limits[start:stop] * (tol > 0))
@@ -116,7 +117,7 @@ def _clear(pencil: Pencil, X: Block, known: Floats) -> None:
     """Take the parts along known eigenvectors away, in place."""
     if known.shape[1]:
         known = known.astype(X.dtype, copy=False)
-        X -= known @ (pencil.weighed(known).T @ X)
+        subtract_product(X, known, pencil.weighed(known).T @ X)
 
 
 def _improved(

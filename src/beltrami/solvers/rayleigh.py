@@ -8,7 +8,7 @@ import numpy as np
 import scipy.linalg
 
 from beltrami._arrays import Floats, Integers
-from beltrami.solvers.columns import ROWS
+from beltrami.solvers.columns import FEW
 from beltrami.solvers.pencil import Block, Pencil
 
 _SMALL = 1e-4  # a rotation whose second order is rounding
@@ -37,11 +37,11 @@ def projected(
     part = np.zeros((k, len(columns)), E.dtype)
     G = np.zeros((k, k))
     BX = X if pencil.plain else np.asarray(pencil.mass @ X)
-    for r in range(0, len(X), ROWS):
-        rows = BX[r : r + ROWS]
-        part += rows.astype(E.dtype, copy=False).T @ E[r : r + ROWS]
+    for r in range(0, len(X), FEW):
+        rows = BX[r : r + FEW]
+        part += rows.astype(E.dtype, copy=False).T @ E[r : r + FEW]
         if fresh or exact:
-            G += X[r : r + ROWS].T @ rows
+            G += X[r : r + FEW].T @ rows
     G = (G + G.T) / 2 if fresh or exact else np.eye(k)
     C = np.zeros((k, k))
     C[:, columns] = part
@@ -99,9 +99,9 @@ def rotate(X: Floats, E: Block, columns: Integers, S: Floats, fresh: bool) -> No
     )
     exactly = np.ascontiguousarray(S[:, large])
     small = change.astype(E.dtype)
-    for r in range(0, len(X), ROWS):
-        x = X[r : r + ROWS]
-        x[:, columns] -= E[r : r + ROWS]
+    for r in range(0, len(X), FEW):
+        x = X[r : r + FEW]
+        x[:, columns] -= E[r : r + FEW]
         turned = x @ exactly
         if not exact:
             x += x.astype(E.dtype) @ small

@@ -22,18 +22,20 @@ class Residuals(NamedTuple):
     rounding: Floats
 
 
-def residuals(pencil: Pencil, X: Floats, values: Floats, dtype: DTypeLike) -> Residuals:
-    r"""Return :math:`Lx - \lambda Bx` of each column, computed in float64.
+def residuals(
+    pencil: Pencil, X: Floats, columns: slice, values: Floats, dtype: DTypeLike
+) -> Residuals:
+    r"""Return :math:`Lx - \lambda Bx` of some columns of X, computed in float64.
 
     Norms are those of (L, B), not of the scaled pencil: :math:`\|L\varphi - \lambda B\varphi\|
     / \|\lambda B\varphi\|`.
     """
     L, B = pencil.stiffness, pencil.mass
-    R = np.empty(X.shape, dtype)
-    sums = np.zeros((3, X.shape[1]))
+    R = np.empty((len(X), len(values)), dtype)
+    sums = np.zeros((3, len(values)))
     _residuals(
         L.indptr, L.indices, L.data, B.indptr, B.indices, B.data, L.diagonal(), pencil.root,
-        np.ascontiguousarray(X), values, R, sums,
+        X, columns.start, values, R, *sums,
     )  # fmt: skip
     residual, force, size = np.sqrt(sums)
     force = np.maximum(force * np.abs(values), np.finfo(float).tiny)
@@ -43,26 +45,27 @@ def residuals(pencil: Pencil, X: Floats, values: Floats, dtype: DTypeLike) -> Re
 @kernel
 def _residuals(
     starts: Any, columns: Any, data: Any, mass_starts: Any, mass_columns: Any, mass: Any,
-    diagonal: Any, root: Any, X: Any, values: Any, R: Any, sums: Any,
+    diagonal: Any, root: Any, X: Any, start: int, values: Any, R: Any, residual: Any, force: Any,
+    size: Any,
 ) -> None:  # fmt: skip
     """Row by row; sums of squares of D r, of D B x, and of twice the diagonal times D x."""
-    c = X.shape[1]
+    c = R.shape[1]
     Lx, Bx = np.empty(c), np.empty(c)
     for i in range(X.shape[0]):
         Lx[:] = 0
         Bx[:] = 0
         for q in range(starts[i], starts[i + 1]):
-            a, x = data[q], X[columns[q]]
+            a, x = data[q], X[columns[q], start : start + c]
             for j in range(c):
                 Lx[j] += a * x[j]
         for q in range(mass_starts[i], mass_starts[i + 1]):
-            a, x = mass[q], X[mass_columns[q]]
+            a, x = mass[q], X[mass_columns[q], start : start + c]
             for j in range(c):
                 Bx[j] += a * x[j]
-        d, large, x, to = root[i], 2 * diagonal[i], X[i], R[i]
+        d, large, x, to = root[i], 2 * diagonal[i], X[i, start : start + c], R[i]
         for j in range(c):
             r = Lx[j] - values[j] * Bx[j]
             to[j] = r
-            sums[0, j] += (d * r) ** 2
-            sums[1, j] += (d * Bx[j]) ** 2
-            sums[2, j] += (d * large * x[j]) ** 2
+            residual[j] += (d * r) ** 2
+            force[j] += (d * Bx[j]) ** 2
+            size[j] += (d * large * x[j]) ** 2
