@@ -38,18 +38,18 @@ class Columns:
         for panel, first, last, offset in self._pieces(start, start + block.shape[1]):
             panel[:, first:last] = block[:, offset : offset + last - first]
 
-    def transposed_times(self, Z: NDArray[Any], count: int) -> NDArray[Any]:
-        """Return Q'Z for the first ``count`` columns."""
-        C = np.zeros((count, Z.shape[1]), self.dtype)
-        for panel, first, last, offset in self._pieces(0, count):
+    def transposed_times(self, Z: NDArray[Any], start: int, stop: int) -> NDArray[Any]:
+        """Return Q'Z for the columns from ``start`` to ``stop``."""
+        C = np.zeros((stop - start, Z.shape[1]), self.dtype)
+        for panel, first, last, offset in self._pieces(start, stop):
             part = C[offset : offset + last - first]
             for r in range(0, self.n, ROWS):
                 part += panel[r : r + ROWS, first:last].T @ Z[r : r + ROWS]
         return C
 
-    def subtract(self, W: NDArray[Any], C: NDArray[Any]) -> None:
-        """Take Q C away from W in place, for the first columns, as many as C has rows."""
-        for panel, first, last, offset in self._pieces(0, len(C)):
+    def subtract(self, W: NDArray[Any], C: NDArray[Any], start: int = 0) -> None:
+        """Take Q C away from W in place, for as many columns as C has rows."""
+        for panel, first, last, offset in self._pieces(start, start + len(C)):
             part = C[offset : offset + last - first]
             subtract_product(W, panel[:, first:last], part)
 

@@ -50,7 +50,7 @@ class Lanczos:
         if self._known:
             self.basis.append(known.astype(inverse.dtype))
         self._H = np.zeros((0, 0))
-        self._last = self._before = self._orthogonal(start)
+        self._last = self._orthogonal(start)
         self._coupling = np.zeros((start.shape[1], 0))
         self._period, self._since, self._arrow = 2, 0, self._known > 0
         self.basis.append(self._last)
@@ -63,7 +63,7 @@ class Lanczos:
     def _orthogonal(self, start: Block) -> Block:
         q = orthonormalize(self.pencil, start.astype(self.inverse.dtype))
         for _ in range(2):
-            C = self.basis.transposed_times(self.pencil.weighed(q), self.basis.count)
+            C = self.basis.transposed_times(self.pencil.weighed(q), 0, self.basis.count)
             self.basis.subtract(q, C)
             q = orthonormalize(self.pencil, q)
         return q
@@ -77,24 +77,30 @@ class Lanczos:
         W = self.inverse(self.pencil.weighed(q))
         self.solves += b
         size = math.sqrt(abs(float(np.vdot(W, self.pencil.weighed(W)))) / b)
-        recent = q if self._arrow or j == 0 else np.hstack([self._before, q])
-        C = self._project(W, recent)
-        if self._arrow:
-            before = self.basis.count - b
-            self.basis.subtract(W, self.basis.transposed_times(self.pencil.weighed(W), before))
-        C += self._project(W, recent)
-        diagonal = C[-b:]
-        self._H[j:, j:] = (diagonal + diagonal.T) / 2
+        stop = self.basis.count
+        recent = max(stop - 2 * b, self._known)
+        C = self._remove(W, recent, stop)[-b:]
+        whole = self._arrow or self._period == 1
+        C += self._remove(W, 0 if whole else recent, stop, self._period == 1)[-b:]
+        self._H[j:, j:] = (C + C.T) / 2
         new, R = new_block(self.pencil, W, size, self.basis, self._random)
-        self._since += 1
-        if self.basis.count > b and (self._since >= self._period or self._arrow):
+        self._since = 0 if whole else self._since + 1
+        if self._since >= self._period and stop > b:
             q, new = self._reorthogonalize(q, new)
         self.basis.append(new)
-        self._before, self._last, self._coupling, self._arrow = q, new, R, False
+        self._last, self._coupling, self._arrow = new, R, False
 
-    def _project(self, W: Block, recent: Block) -> Floats:
-        C = recent.T @ self.pencil.weighed(W)
-        subtract_product(W, recent, C)
+    def _remove(self, W: Block, start: int, stop: int, watched: bool = False) -> Floats:
+        """Make W orthogonal to columns of the basis; return the coefficients.
+
+        If ``watched``, those of the columns but for the last two blocks tell what was lost.
+        """
+        C = self.basis.transposed_times(self.pencil.weighed(W), start, stop)
+        self.basis.subtract(W, C, start)
+        old = C[: max(len(C) - 2 * W.shape[1], 0)]
+        if watched and old.size:
+            length = math.sqrt(abs(float(np.vdot(W, self.pencil.weighed(W)))) / W.shape[1])
+            self._choose(float(np.abs(old).max()) / max(length, np.finfo(C.dtype).tiny), 1)
         return C.astype(np.float64)
 
     def _padded(self, j: int) -> Floats:
@@ -107,28 +113,22 @@ class Lanczos:
     def _reorthogonalize(self, q: Block, new: Block) -> tuple[Block, Block]:
         """Make the last two blocks orthogonal to all before, and choose the next time."""
         b = q.shape[1]
-        if self._since == 1:  # q is
-            C = self.basis.transposed_times(self.pencil.weighed(new), self.basis.count)
-            self.basis.subtract(new, C)
-            new = orthonormalize(self.pencil, new)
-            self._choose(C)
-            return q, new
         j = self.basis.count - b
         Z = np.hstack([q, new])
-        C = self.basis.transposed_times(self.pencil.weighed(Z), j)
+        C = self.basis.transposed_times(self.pencil.weighed(Z), 0, j)
         self.basis.subtract(Z, C)
         q = orthonormalize(self.pencil, np.ascontiguousarray(Z[:, :b]))
         new = np.ascontiguousarray(Z[:, b:])
-        self._project(new, q)
+        subtract_product(new, q, q.T @ self.pencil.weighed(new))
         new = orthonormalize(self.pencil, new)
         self.basis.put(j, q)
-        self._choose(C)
+        self._choose(float(np.abs(C).max()), self._since)
+        self._since = 0
         return q, new
 
-    def _choose(self, C: Block) -> None:
+    def _choose(self, loss: float, steps: int) -> None:
         """Choose the next time by what was lost; the losses of the first steps mislead."""
-        next_one = _next_period(float(np.abs(C).max()), self._since, C.dtype)
-        self._period, self._since = min(next_one, self._period + (self._since > 1)), 0
+        self._period = min(_next_period(loss, steps, self.basis.dtype), self._period + 1)
 
     def ritz(self, count: int) -> Ritz:
         """Return the ``count`` Ritz pairs that are largest in size."""
@@ -156,7 +156,7 @@ class Lanczos:
         coupling = self._coupling @ ritz.coordinates[self.size - width :]
         self.basis.contract(scipy.linalg.block_diag(np.eye(self._known), ritz.coordinates))
         self._H = np.diag(ritz.values)
-        self._last = self._before = self._orthogonal(self._last)
+        self._last = self._orthogonal(self._last)
         self._coupling, self._arrow, self._since = coupling, True, 0
         self.basis.append(self._last)
 

@@ -38,7 +38,7 @@ def new_block(
     lengths = np.linalg.eigvalsh(G)
     if lengths[0] < (_WEAK * size) ** 2:
         for _ in range(2):
-            known.subtract(W, known.transposed_times(pencil.weighed(W), known.count))
+            known.subtract(W, known.transposed_times(pencil.weighed(W), 0, known.count))
         G = _gram(pencil, W)
         lengths = np.linalg.eigvalsh(G)
     rounding = _TIMES_ROUNDING * float(np.finfo(W.dtype).eps) * size
@@ -61,7 +61,7 @@ def _renew(
     kept, fresh = Q[:, ~dead], random.standard_normal((len(Q), int(dead.sum())))
     new = fresh.astype(Q.dtype)
     for _ in range(3):
-        known.subtract(new, known.transposed_times(pencil.weighed(new), known.count))
+        known.subtract(new, known.transposed_times(pencil.weighed(new), 0, known.count))
         new = new - kept @ (kept.T @ pencil.weighed(new))
         new = orthonormalize(pencil, new)
     Q[:, dead] = new

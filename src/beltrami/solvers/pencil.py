@@ -81,7 +81,7 @@ class Pencil:
         return csc_array(csr_array(L - shift * B).T)  # symmetric: its rows are its columns
 
     def physical(self, known: Floats, X: Floats, chosen: Integers) -> Floats:
-        """Return chosen columns of [known, X] as vectors of (L, B), in the order in which they came."""
+        """Return chosen columns of [known, X] as vectors of (L, B), in its own order."""
         phi = np.empty((self.n, len(chosen)))
         _leave(known, X, chosen, self.root, self.elimination.order, phi)
         return phi

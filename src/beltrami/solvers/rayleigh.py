@@ -98,11 +98,15 @@ def rotate(X: Floats, E: Block, columns: Integers, S: Floats, fresh: bool) -> No
         np.abs(change).max(axis=0) > (0 if exact else _TURNED[0 if fresh else 1])
     )
     exactly = np.ascontiguousarray(S[:, large])
-    small = change.astype(E.dtype)
+    small, whole = change.astype(E.dtype), len(columns) == len(S)
     for r in range(0, len(X), FEW):
         x = X[r : r + FEW]
-        x[:, columns] -= E[r : r + FEW]
-        turned = x @ exactly
+        if whole:
+            x -= E[r : r + FEW]
+        else:
+            x[:, columns] -= E[r : r + FEW]
+        turned = x @ exactly if len(large) else None
         if not exact:
             x += x.astype(E.dtype) @ small
-        x[:, large] = turned
+        if turned is not None:
+            x[:, large] = turned
