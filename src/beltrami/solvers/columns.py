@@ -10,7 +10,13 @@ from numpy.typing import DTypeLike, NDArray
 
 ROWS = 8192  # of a product at a time: what is between two multiplications stays in the cache
 FEW = 2048  # likewise, of hundreds of columns
-_WIDTH = 256  # columns of a panel: to grow copies nothing
+_DUST = 1e-25
+_WIDTH = 128  # columns of a panel: to grow copies nothing
+
+
+def without_dust(S: NDArray[Any], dtype: DTypeLike) -> NDArray[Any]:
+    """Return S in a precision, without numbers so small that processors are slow with them."""
+    return np.where(np.abs(S) < _DUST, 0.0, S).astype(dtype)
 
 
 def subtract_product(W: NDArray[Any], Q: NDArray[Any], C: NDArray[Any]) -> None:
@@ -69,7 +75,7 @@ class Columns:
         del self._panels[-(-self.count // _WIDTH) :]
 
     def _products(self, S: NDArray[Any]) -> Iterator[tuple[int, NDArray[Any]]]:
-        factor = np.ascontiguousarray(S, self.dtype)
+        factor = without_dust(S, self.dtype)
         for r in range(0, self.n, ROWS):
             yield (
                 r,

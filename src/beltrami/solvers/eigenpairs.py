@@ -10,23 +10,12 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats
-from beltrami.errors import ConvergenceError
+from beltrami.solvers.completing import complete, crowded
 from beltrami.solvers.computation import Computation
-from beltrami.solvers.dense_pairs import dense_pairs
-from beltrami.solvers.inertia import census
-from beltrami.solvers.inverse import Inverse, definite_inverse, signed_inverse
-from beltrami.solvers.nearest_pairs import largest_basis, search, settings_for
-from beltrami.solvers.pencil import Pencil, make_pencil
-from beltrami.solvers.polish import polish
-from beltrami.solvers.residuals import residuals
+from beltrami.solvers.finding import find
+from beltrami.solvers.pencil import make_pencil
 from beltrami.solvers.sign_rule import fix_signs
-
-SMALL = 500  # unknowns up to which LAPACK is as fast
-SINGLE = 1e-9  # tolerances below it need float64 throughout
-_EQUAL = 1e-6  # relative difference of eigenvalues that may be one of high multiplicity
-_ZERO = 1e-10  # what a semi-definite pencil may round to, below zero
-_GUARDS = 8  # pairs that the dense method keeps beyond those wanted, to count before them
-_SEARCHES = 6  # for eigenpairs that a count has shown to be missing
+from beltrami.solvers.work import Work
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,29 +26,6 @@ class Eigenpairs:
     vectors: Floats
     residuals: Floats
     computation: Computation
-
-
-@dataclass(eq=False)
-class _Work:
-    """What grows during the computation; values and vectors of the pencil, without its kernel."""
-
-    pencil: Pencil
-    near: float
-    k: int
-    tol: float
-    seed: int
-    values: Floats
-    vectors: Floats
-    residuals: Floats
-    definite: bool = True
-    method: str = "kernel"
-    precision: str = "float64"
-    shift: float = 0.0
-    basis: int = 0
-    block: int = 0
-    solves: int = 0
-    history: tuple[float, ...] = ()
-    counted: float = 0.0
 
 
 def eigenpairs(
@@ -108,12 +74,12 @@ def eigenpairs(
     clock = [("", time.perf_counter())]
     pencil = make_pencil(L, B, k, coordinates)
     clock.append(("prepare", time.perf_counter()))
-    work = _Work(
+    work = Work(
         pencil, near / pencil.unit, k, tol, seed, np.zeros(0), np.zeros((pencil.n, 0)), np.zeros(0)
     )
-    _find(work, certify, clock)
-    if certify or (work.method == "lanczos" and _crowded(work)):
-        _complete(work)
+    find(work, certify, clock)
+    if certify or (work.method == "lanczos" and crowded(work)):
+        complete(work)
         clock.append(("certify", time.perf_counter()))
     result = _select(work, L)
     fix_signs(result[1])
@@ -126,107 +92,7 @@ def eigenpairs(
     return Eigenpairs(*result, computation)
 
 
-def _find(work: _Work, certify: bool, clock: list[tuple[str, float]]) -> None:
-    """Compute what is not in the kernel: dense, from below, or around a shift inside.
-
-    To certify a kernel takes the first eigenvalue beyond it.
-    """
-    pencil, kernel = work.pencil, work.pencil.kernel.shape[1]
-    from_below = work.near <= 0
-    wanted = min(max(work.k - kernel, int(certify)) if from_below else work.k, pencil.n - kernel)
-    if wanted <= 0:
-        return
-    if pencil.n <= SMALL or largest_basis(wanted) + kernel > pencil.n:
-        work.method = "dense"
-        work.values, work.vectors = dense_pairs(pencil, wanted + _GUARDS, work.near)
-        everything = slice(0, len(work.values))
-        found = residuals(pencil, work.vectors, everything, work.values, np.float64)
-        work.residuals = found.norms
-        work.definite = bool(work.values[0] >= -_ZERO) and from_below
-        clock.append(("dense", time.perf_counter()))
-        return
-    work.method = "lanczos"
-    dtype = np.float64 if work.tol < SINGLE or not from_below else np.float32
-    settings = settings_for(wanted, work.tol)
-    inverse = definite_inverse(pencil, settings.shift, dtype) if from_below else None
-    work.definite = inverse is not None
-    if inverse is not None:
-        _lanczos(work, inverse, wanted, clock)
-        if work.values[0] >= -_ZERO:
-            return
-    work.definite = False
-    wanted = min(work.k, pencil.n - kernel)
-    near = min(work.near, pencil.bound)
-    inverse = signed_inverse(pencil, near, 1e-3 / work.k)
-    _lanczos(work, inverse, wanted, clock)
-
-
-def _lanczos(work: _Work, inverse: Inverse, wanted: int, clock: list[tuple[str, float]]) -> None:
-    """Search, and polish what was found."""
-    clock.append(("factorize", time.perf_counter()))
-    pencil, kernel = work.pencil, work.pencil.kernel
-    settings = settings_for(wanted, work.tol)
-    found = search(pencil, inverse, kernel, wanted, settings, work.seed)
-    clock.append(("search", time.perf_counter()))
-    polished = polish(pencil, found.inverse, found.vectors, found.values, kernel, wanted, work.tol)
-    clock.append(("polish", time.perf_counter()))
-    work.vectors, work.values, work.residuals = polished[:3]
-    work.history = polished.history
-    work.precision, work.shift = str(found.inverse.dtype), found.inverse.shift
-    work.basis, work.block = max(work.basis, found.basis), settings.block
-    work.solves += found.solves + polished.solves
-
-
-def _crowded(work: _Work) -> bool:
-    """Whether a multiplicity may be higher than a block can find: as many equal values as columns.
-
-    A Krylov space of b vectors holds b copies of an eigenvalue; more come by rounding only.
-    """
-    values, b = work.values, work.block
-    return bool((values[b - 1 :] - values[: len(values) - b + 1] <= _EQUAL * values[b - 1 :]).any())
-
-
-def _complete(work: _Work) -> None:
-    """Count the eigenvalues; search for missing ones, orthogonally to those that are known."""
-    pencil = work.pencil
-    if len(work.values) + pencil.kernel.shape[1] == pencil.n:
-        work.counted = np.inf
-        return
-    for attempt in range(_SEARCHES):
-        values = np.concatenate([np.zeros(pencil.kernel.shape[1]), work.values])
-        doubts = np.concatenate([np.zeros(pencil.kernel.shape[1]), work.residuals * work.values])
-        count = census(pencil, values, np.abs(doubts) + 1e-12, work.near, work.k, work.definite)
-        missing = count.there - count.found
-        if missing == 0:
-            work.counted = count.radius
-            return
-        if missing < 0 or work.method != "lanczos":
-            break
-        _search_again(work, missing, attempt + 1)
-    raise ConvergenceError(
-        f"{count.there} eigenvalues are within {count.radius * pencil.unit:.6g} of "
-        f"{work.near * pencil.unit:.6g}, and {count.found} were found"
-    )
-
-
-def _search_again(work: _Work, missing: int, attempt: int) -> None:
-    """Find eigenpairs orthogonal to the known ones, and put them among those."""
-    pencil = work.pencil
-    settings = settings_for(missing, work.tol)
-    inverse = (
-        definite_inverse(pencil, work.shift, work.precision) if work.definite else None
-    ) or signed_inverse(pencil, work.near, 1e-3 / work.k)
-    known = np.hstack([pencil.kernel, work.vectors])
-    found = search(pencil, inverse, known, missing, settings, work.seed + attempt)
-    again = polish(pencil, found.inverse, found.vectors, found.values, known, missing, work.tol)
-    order = np.argsort(np.concatenate([work.values, again.values]), kind="stable")
-    work.values = np.concatenate([work.values, again.values])[order]
-    work.residuals = np.concatenate([work.residuals, again.residuals])[order]
-    work.vectors = np.hstack([work.vectors, again.vectors])[:, order]
-    work.solves += found.solves + again.solves
-
-
-def _select(work: _Work, L: csr_array) -> tuple[Floats, Floats, Floats]:
+def _select(work: Work, L: csr_array) -> tuple[Floats, Floats, Floats]:
     """Return the k nearest, the kernel among them, as pairs of (L, B)."""
     pencil, kernel = work.pencil, work.pencil.kernel
     zeros = np.zeros(kernel.shape[1])

@@ -13,7 +13,7 @@ from beltrami.solvers.columns import Columns
 from beltrami.solvers.pencil import Block, Pencil
 
 _TIMES_ROUNDING = 100.0  # what is shorter than so many units of rounding has no direction
-_WEAK = 1e-4  # of the size: what is shorter carries much of the rounding of old directions
+_WEAK = 3e-3  # of the size: what is shorter carries much of the rounding of old directions
 _FLAT = 1e2  # units of rounding: a Gram matrix with a smaller eigenvalue is not relied on
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import scipy.linalg
 
 from beltrami._arrays import Floats, Integers
-from beltrami.solvers.columns import FEW
+from beltrami.solvers.columns import FEW, without_dust
 from beltrami.solvers.pencil import Block, Pencil
 
 _SMALL = 1e-4  # a rotation whose second order is rounding
@@ -98,7 +98,7 @@ def rotate(X: Floats, E: Block, columns: Integers, S: Floats, fresh: bool) -> No
         np.abs(change).max(axis=0) > (0 if exact else _TURNED[0 if fresh else 1])
     )
     exactly = np.ascontiguousarray(S[:, large])
-    small, whole = change.astype(E.dtype), len(columns) == len(S)
+    small, whole = without_dust(change, E.dtype), len(columns) == len(S)
     for r in range(0, len(X), FEW):
         x = X[r : r + FEW]
         if whole:
