@@ -30,7 +30,7 @@ def complete(work: Work) -> None:
     if len(work.values) + pencil.kernel.shape[1] == pencil.n:
         work.counted = np.inf
         return
-    for attempt in range(_SEARCHES):
+    for attempt in range(_SEARCHES + 1):
         values = np.concatenate([np.zeros(pencil.kernel.shape[1]), work.values])
         doubts = np.concatenate([np.zeros(pencil.kernel.shape[1]), work.residuals * work.values])
         count = census(pencil, values, np.abs(doubts) + 1e-12, work.near, work.k, work.definite)
@@ -38,7 +38,7 @@ def complete(work: Work) -> None:
         if missing == 0:
             work.counted = count.radius
             return
-        if missing < 0 or work.method != "lanczos":
+        if missing < 0 or work.method != "lanczos" or attempt == _SEARCHES:
             break
         _search_again(work, missing, attempt + 1)
     raise ConvergenceError(

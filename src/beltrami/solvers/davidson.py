@@ -45,7 +45,7 @@ def _complement(pencil: Pencil, X: Floats, E: Block) -> Floats:
         E -= X @ (X.T @ pencil.weighed(E))
     for _ in range(2):
         lengths, V = np.linalg.eigh(E.T @ pencil.weighed(E))
-        kept = lengths > _DEPENDENT * max(lengths[-1], np.finfo(float).tiny)
+        kept = lengths > _DEPENDENT * lengths.max(initial=np.finfo(float).tiny)
         E = E @ (V[:, kept] / np.sqrt(lengths[kept]))
         E -= X @ (X.T @ pencil.weighed(E))
     return E

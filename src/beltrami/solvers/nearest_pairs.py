@@ -46,7 +46,12 @@ def settings_for(k: int, tol: float) -> Settings:
 def largest_basis(k: int) -> int:
     """Return how many columns a search for k eigenpairs holds at most."""
     block = _block(k)
-    return _blocks(2.6 * k + 20 * block, block) + block
+    return _most_columns(k, block) + block
+
+
+def _most_columns(k: int, b: int) -> int:
+    """Return the size of the basis at which Lanczos restarts."""
+    return _blocks(2.6 * k + 20 * b, b)
 
 
 def _block(k: int) -> int:
@@ -72,7 +77,7 @@ def search(
     start = random.standard_normal((n, b), dtype=inverse.dtype.type)
     process = Lanczos(pencil, inverse, start, known, seed)
     solves = restarts = 0
-    most = _blocks(2.6 * k + 20 * b, b)
+    most = _most_columns(k, b)
     look = min(_blocks(2.1 * k + 11 * b, b), most)
     while True:
         while process.size < look:
