@@ -13,7 +13,7 @@ from scipy.sparse import csc_array, csr_array
 from beltrami._arrays import Floats, Integers
 from beltrami._jit import kernel
 from beltrami.solvers.elimination import Elimination
-from beltrami.solvers.null_space import kernel_vectors
+from beltrami.solvers.kernel_vectors import kernel_vectors
 from beltrami.solvers.ordering import as_positions, order
 
 Block = NDArray[Any]  # (n, c), float32 or float64
