@@ -9,6 +9,7 @@ from benchmarks.rows.eigenpairs import EIGEN_50, EIGEN_200, EIGEN_500, EIGEN_LAR
 from benchmarks.rows.factorizing import FACTORIZE, FACTORIZE_LARGE, SOLVE_3, SOLVE_64
 from benchmarks.rows.geodesics import GEODESICS, GEODESICS_PREPARED
 from benchmarks.rows.intrinsic import INTRINSIC
+from benchmarks.rows.iterating import CONJUGATE_GRADIENTS
 from benchmarks.rows.reading import READ_OBJ, READ_OFF, READ_PLY
 from benchmarks.rows.smoothing import SMOOTHING
 from benchmarks.rows.starting import FIRST_CALL, IMPORT
@@ -28,6 +29,7 @@ ROWS: tuple[Row, ...] = (
     EIGEN_200,
     EIGEN_500,
     EIGEN_LARGE,
+    CONJUGATE_GRADIENTS,
     READ_OBJ,
     READ_OFF,
     READ_PLY,
