@@ -49,7 +49,7 @@ def with_superlu(given: tuple[csc_matrix, csc_matrix, float], k: int) -> Values:
 def eigsh_with_cholespy(given: tuple[csc_matrix, csc_matrix, float], k: int) -> Values:
     L, B, shift = given
     solve = with_cholespy((L - shift * B).tocoo())
-    inverse = LinearOperator(L.shape, matvec=lambda b: solve(np.array(b)))
+    inverse = LinearOperator(L.shape, matvec=lambda b: solve(np.array(b)), dtype=np.float64)
     return eigsh(L, k, B, sigma=shift, OPinv=inverse, tol=TOLERANCE)[0]
 
 

@@ -11,6 +11,7 @@ from scipy.spatial import Delaunay
 
 import beltrami as bt
 from beltrami.errors import BeltramiError, MeshError
+from beltrami.solvers import finding, slices
 from meshes_of_the_errata import MESHES
 
 
@@ -136,6 +137,22 @@ def test_twenty_equal_components(k):
     assert ((abs(U) > 0).sum(axis=0) == 162).all()  # each constant lives on one component
     assert (U >= 0).all()
     assert (basis.eigenvalues[: min(k, 20)] == 0).all()
+
+
+@pytest.mark.parametrize("mesh", ["blob", "sphere"])
+def test_slices_of_the_spectrum(mesh, monkeypatch):
+    """The way to thousands of eigenpairs, at the size of hundreds."""
+    monkeypatch.setattr(finding, "SLICED", 100)
+    monkeypatch.setattr(finding, "LARGE", 500)
+    monkeypatch.setattr(finding, "SLICE", 50)
+    monkeypatch.setattr(slices, "SLICE", 50)
+    pair = bt.laplacian(bt.shapes.icosphere(3) if mesh == "sphere" else blob())
+    basis = bt.fourier_basis(pair, 180)
+    assert basis.computation.method == "slices"
+    assert basis.computation.basis < 400
+    assert basis.computation.counted_within > basis.eigenvalues[-1]
+    assert_right(basis, pair, dense(pair, 180), 1e-9, 1e-12)
+    assert basis.orthogonality < 1e-8
 
 
 def test_values_held_at_the_boundary_and_on_a_part_of_it():

@@ -56,9 +56,10 @@ def _search_again(work: Work, missing: int, attempt: int) -> None:
     ) or signed_inverse(pencil, work.near, 1e-3 / work.k)
     known = np.hstack([pencil.kernel, work.vectors])
     found = search(pencil, inverse, known, missing, settings, work.seed + attempt)
-    again = polish(pencil, found.inverse, found.vectors, found.values, known, missing, work.tol)
-    order = np.argsort(np.concatenate([work.values, again.values]), kind="stable")
-    work.values = np.concatenate([work.values, again.values])[order]
-    work.residuals = np.concatenate([work.residuals, again.residuals])[order]
-    work.vectors = np.hstack([work.vectors, again.vectors])[:, order]
+    values = np.concatenate([work.values, found.values])
+    order = np.argsort(values, kind="stable")
+    X = np.ascontiguousarray(np.hstack([work.vectors, found.vectors])[:, order])
+    wanted = min(work.k, len(values))
+    again = polish(pencil, found.inverse, X, values[order], pencil.kernel, wanted, work.tol)
+    work.vectors, work.values, work.residuals = again.vectors, again.values, again.residuals
     work.solves += found.solves + again.solves

@@ -12,7 +12,8 @@ class Computation:
     Attributes
     ----------
     method
-        ``"dense"`` (LAPACK), ``"lanczos"``, ``"kernel"`` (nothing to compute), or ``"given"``.
+        ``"dense"`` (LAPACK), ``"lanczos"``, ``"slices"`` (Lanczos in each), ``"kernel"`` (there
+        was nothing to compute), or ``"given"``.
     precision
         ``"float32"`` or ``"float64"`` inside; what comes out is float64, polished.
     shift

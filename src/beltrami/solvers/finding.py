@@ -7,14 +7,18 @@ import time
 import numpy as np
 
 from beltrami.errors import ConvergenceError
+from beltrami.solvers.completing import complete
 from beltrami.solvers.dense_pairs import dense_pairs
 from beltrami.solvers.inverse import Inverse, definite_inverse, signed_inverse
 from beltrami.solvers.nearest_pairs import largest_basis, search, settings_for
 from beltrami.solvers.polish import polish
 from beltrami.solvers.residuals import residuals
+from beltrami.solvers.slices import SLICE, TIGHT, extend_by_slices
 from beltrami.solvers.work import Work
 
 SMALL = 500  # unknowns up to which LAPACK is as fast
+SLICED = 1200  # eigenpairs beyond which the spectrum is cut into slices
+LARGE = 6000  # unknowns up to which LAPACK does that as well
 SINGLE = 1e-9  # tolerances below it need float64 throughout
 _ZERO = 1e-10  # what a semi-definite pencil may round to, below zero
 _GUARDS = 8  # pairs that the dense method keeps beyond those wanted, to count before them
@@ -30,6 +34,9 @@ def find(work: Work, certify: bool, clock: list[tuple[str, float]]) -> None:
     from_below = work.near <= 0
     wanted = min(max(work.k - kernel, int(certify)) if from_below else work.k, pencil.n - kernel)
     if wanted <= 0:
+        return
+    if from_below and wanted > SLICED and pencil.n > LARGE:
+        _by_slices(work, clock)
         return
     if pencil.n <= SMALL or largest_basis(wanted) + kernel > pencil.n:
         work.method = "dense"
@@ -50,6 +57,20 @@ def find(work: Work, certify: bool, clock: list[tuple[str, float]]) -> None:
         _lanczos(work, inverse, min(work.k, pencil.n - kernel), clock)
     except np.linalg.LinAlgError as cause:
         raise ConvergenceError(_LOST) from cause
+
+
+def _by_slices(work: Work, clock: list[tuple[str, float]]) -> None:
+    """Search from below, count what is there, and go on from slice to slice."""
+    whole, work.k = work.k, SLICE + work.pencil.kernel.shape[1]
+    work.tol = min(work.tol, TIGHT)
+    find(work, True, clock)
+    if not work.definite:
+        raise ConvergenceError("slices of the spectrum need a pair that is semi-definite")
+    complete(work)
+    work.k = whole
+    extend_by_slices(work)
+    work.method = "slices"
+    clock.append(("slices", time.perf_counter()))
 
 
 def _from_below(work: Work, wanted: int, clock: list[tuple[str, float]]) -> bool:

@@ -76,7 +76,7 @@ def polish(
         history.append(float(now.norms[nearest].max(initial=0.0)))
         if not fresh and (now.norms <= now.limits)[nearest].all():
             return Polished(X, values, now.norms, tuple(history), solves)
-        if stalled % 2:
+        if stalled % 2 and inverse.definite:  # inside the spectrum it could mislead
             X, values = _with_davidson(pencil, inverse, X, values, now)
             fresh = False
         else:
