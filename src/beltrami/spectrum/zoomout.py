@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from beltrami._progress import Progress, stages
 from beltrami.errors import BeltramiError
-from beltrami.spectrum.functional_map import (
+from beltrami.spectrum.correspondence import (
     FunctionalMap,
     size_of,
     unit_vectors,
