@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from beltrami.cli.curvature import curvature
+from beltrami.cli.descriptors import descriptors
 from beltrami.cli.endings import ending_well
 from beltrami.cli.geodesics import geodesics
 from beltrami.cli.heat import heat
@@ -25,7 +26,18 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for verb in (info, repair, smooth, heat, curvature, geodesics, integrate, render, tour):
+for verb in (
+    info,
+    repair,
+    smooth,
+    heat,
+    curvature,
+    geodesics,
+    integrate,
+    descriptors,
+    render,
+    tour,
+):
     app.command()(ending_well(verb))
 
 
