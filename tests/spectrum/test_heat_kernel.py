@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
-from scipy.linalg import expm
+from scipy.linalg import eigh, expm
 
 import spectra
 from beltrami.errors import BeltramiError, MeshError, NonFiniteError
 from beltrami.mesh.shapes import icosphere, octahedron
 from beltrami.operators.laplacian import laplacian
+from beltrami.spectrum.basis import FourierBasis
 from beltrami.spectrum.fourier_basis import fourier_basis
 from beltrami.spectrum.heat_kernel import heat_kernel_signature
 
@@ -174,3 +175,25 @@ def test_wrong_input():
     with pytest.raises(MeshError, match="all zero"):
         heat_kernel_signature(kernel)
     assert heat_kernel_signature(kernel, 1.0).values.shape == (42, 1)
+
+
+def test_vertices_held_at_zero_miss_nothing():
+    """Rows of zeros are a Dirichlet condition: the heat there is 0, and known."""
+    pair = spectra.pair_of("pl")
+    free = np.ones(pair.n, bool)
+    free[:8] = False
+    values, vectors = eigh(
+        pair.stiffness.toarray()[free][:, free], pair.mass.toarray()[free][:, free]
+    )
+    rows = np.zeros((pair.n, free.sum()))
+    rows[free] = vectors
+    whole, part = (
+        FourierBasis(values[:k].copy(), rows[:, :k].copy(), pair.mass.copy(), np.zeros(k))
+        for k in (free.sum(), 12)
+    )
+    exact, found = (heat_kernel_signature(b, [0.5, 2.0]) for b in (whole, part))
+    assert not found.values[~free].any()
+    assert not exact.truncation.any()
+    lost = (exact.values[free] / found.values[free] - 1).max(axis=0)
+    assert (lost <= found.truncation + 1e-12).all()
+    assert np.isfinite(found.truncation).all()

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, as_function, read_only, rectangular
+from beltrami._arrays import Booleans, Floats, as_function, read_only, rectangular
 from beltrami.errors import BeltramiError
 from beltrami.spectrum.basis import FourierBasis
 
@@ -66,14 +66,25 @@ def missing_squares(basis: FourierBasis) -> Floats:
 
     All modes together give :math:`(B^{-1})_{xx}`. For a diagonal B this is 1/b, and the bound is
     an equality; the consistent mass is at least a quarter of its row sums (on one face its
-    eigenvalues are 1/4, 1/4 and 1 times the lumped ones), so it is at most 4/b.
+    eigenvalues are 1/4, 1/4 and 1 times the lumped ones), so it is at most 4/b. Where all vectors
+    are 0, vertices are held at 0, and nothing is missing.
     """
-    if basis.k == basis.n:
+    if not missing_modes(basis):
         return np.zeros(basis.n)
     sums = vertex_masses(basis)
     diagonal = np.array_equal(sums, basis.mass.diagonal())
     whole = (1.0 if diagonal else 4.0) / sums
-    return np.maximum(whole - weighted_squares(basis, np.ones((basis.k, 1)))[:, 0], 0.0)
+    seen = weighted_squares(basis, np.ones((basis.k, 1)))[:, 0]
+    return np.where(_free(basis), np.maximum(whole - seen, 0.0), 0.0)
+
+
+def missing_modes(basis: FourierBasis) -> int:
+    """Return how many modes are beyond the basis."""
+    return int(_free(basis).sum()) - basis.k
+
+
+def _free(basis: FourierBasis) -> Booleans:
+    return np.asarray(basis.eigenvectors.any(axis=1))
 
 
 def worst_ratio(parts: Floats, values: Floats) -> Floats:

@@ -13,6 +13,7 @@ from beltrami.spectrum.signature import (
     Signature,
     as_count,
     as_samples,
+    missing_modes,
     missing_squares,
     total_mass,
     weighted_squares,
@@ -117,7 +118,7 @@ def wave_kernel_signature(
     edge = np.where(at < levels[-1], band[-1], 1.0)
     lost = np.maximum(
         worst_ratio(np.outer(missing_squares(basis), edge), values),
-        edge * (basis.n - basis.k) / sums,
+        edge * missing_modes(basis) / sums,
     )
     return Signature(values / sums * unit, at, "wave", lost)
 
