@@ -73,7 +73,8 @@ def functional_map(
 
     Notes
     -----
-    Cost: O(k⁴) for the rows, O(nkq) for the coefficients, and a KD-tree query for each vertex.
+    Cost: O(k⁴) for the rows, O(nkq) for the coefficients, and the nearest neighbour of each
+    vertex: O(n_source n_target k) at the speed of BLAS, or a KD-tree for up to 16 eigenpairs.
 
     References
     ----------

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from beltrami._arrays import Floats, Integers
+from beltrami.spectrum.nearest import nearest_rows
 
 
 def nearest_points(C: Floats, source: Floats, target: Floats) -> Integers:
@@ -19,10 +20,9 @@ def nearest_points(C: Floats, source: Floats, target: Floats) -> Integers:
 
     Returns
     -------
-    (n_target,) indices of source vertices. Cost: a KD-tree of the source, a query for each
-    target vertex.
+    (n_target,) indices of source vertices. Cost: that of ``nearest_rows``.
     """
-    return _nearest(source @ C.T, target)
+    return nearest_rows(source @ C.T, target)
 
 
 def nearest_points_back(C: Floats, source: Floats, target: Floats) -> Integers:
@@ -32,7 +32,7 @@ def nearest_points_back(C: Floats, source: Floats, target: Floats) -> Integers:
     -------
     (n_source,) indices of target vertices.
     """
-    return _nearest(target, source @ C.T)
+    return nearest_rows(target, source @ C.T)
 
 
 def map_of_points(points: Integers, source: Floats, weighted: Floats) -> Floats:
@@ -50,7 +50,18 @@ def map_of_points(points: Integers, source: Floats, weighted: Floats) -> Floats:
     return np.asarray(weighted.T @ source[points])
 
 
-def _nearest(among: Floats, queries: Floats) -> Integers:
-    from scipy.spatial import KDTree  # slow to load
+def map_of_samples(points: Integers, source: Floats, target: Floats) -> Floats:
+    r"""Return the C with the least :math:`\|\Psi C - \Phi[T]\|^2` over a sample of the target.
 
-    return np.asarray(KDTree(among).query(queries)[1], dtype=np.int64)
+    Parameters
+    ----------
+    points
+        (q,) the source vertex of each sample.
+    source
+        (n_source, k_source) the eigenvectors Φ.
+    target
+        (q, k_target) the rows of Ψ at the samples.
+    """
+    from scipy.linalg import lstsq  # slow to load
+
+    return np.asarray(lstsq(target, source[points], lapack_driver="gelsy")[0])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from beltrami._arrays import Floats, Integers
 from beltrami._progress import Progress, stages
 from beltrami.errors import BeltramiError
 from beltrami.spectrum.correspondence import (
@@ -10,7 +11,8 @@ from beltrami.spectrum.correspondence import (
     unit_vectors,
     with_point_map,
 )
-from beltrami.spectrum.point_maps import map_of_points, nearest_points
+from beltrami.spectrum.nearest import spread_rows
+from beltrami.spectrum.point_maps import map_of_points, map_of_samples, nearest_points
 from beltrami.spectrum.signature import as_count, total_mass
 
 
@@ -19,6 +21,7 @@ def zoomout(
     k: int | None = None,
     *,
     step: int = 1,
+    samples: int | None = None,
     progress: Progress | None = None,
 ) -> FunctionalMap:
     r"""Refine a small functional map to one of k eigenpairs, by going to points and back.
@@ -35,8 +38,12 @@ def zoomout(
         Size of the result. Default: all eigenpairs that both bases have.
     step
         Eigenpairs that are added at a time. Larger steps are faster, and less sure.
+    samples
+        How many target vertices, far from each other, take part in the rounds; the last map of
+        points is that of all. Default: all vertices. A thousand are enough for most surfaces, and
+        make a round linear in n.
     progress
-        Called with (rounds done, rounds in all).
+        Called with (eigenpairs added, eigenpairs to add).
 
     Returns
     -------
@@ -47,12 +54,13 @@ def zoomout(
     Raises
     ------
     BeltramiError
-        If k is below the size of the start or above that of a basis, or the step is not a whole
-        number >= 1.
+        If k is below the size of the start or above that of a basis, the step is not a whole
+        number >= 1, or the samples are fewer than k or more than the target has vertices.
 
     Notes
     -----
-    Cost: a KD-tree and a query for each vertex in each round, and O(n k²) for the maps.
+    Cost: O(n_source n_target k) at the speed of BLAS in each round (or a KD-tree for up to 16
+    eigenpairs), and O(n k²) for the maps; O(n_source q k) for q samples.
 
     References
     ----------
@@ -79,11 +87,28 @@ def zoomout(
     if final < least:
         raise BeltramiError(f"k is {final}, below the {least} eigenpairs of the start")
     phi, psi = (unit_vectors(basis, final) for basis in (source, target))
-    weighted = target.mass @ psi / total_mass(target)
+    if samples is not None:
+        psi = psi[_spread_vertices(psi, samples)]
+    weighted = target.mass @ psi / total_mass(target) if samples is None else None
     C, added = start.matrix, 0
     for size in stages(final - least, progress, step):
         k_target, k_source = C.shape
         points = nearest_points(C, phi[:, :k_source], psi[:, :k_target])
         added += size
-        C = map_of_points(points, phi[:, : columns + added], weighted[:, : rows + added])
+        left, right = rows + added, columns + added
+        if weighted is None:
+            C = map_of_samples(points, phi[:, :right], psi[:, :left])
+        else:
+            C = map_of_points(points, phi[:, :right], weighted[:, :left])
     return with_point_map(C, source, target)
+
+
+def _spread_vertices(psi: Floats, samples: int) -> Integers:
+    """Choose vertices far from each other, where the eigenvectors say where: psi[chosen] is good.
+
+    Differences of all of the first k eigenvectors measure distances about alike everywhere.
+    """
+    n, k = psi.shape
+    if as_count(samples, "samples", least=k) > n:
+        raise BeltramiError(f"{samples} samples are more than the {n} target vertices")
+    return spread_rows(psi, samples)
