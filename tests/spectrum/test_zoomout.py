@@ -85,13 +85,12 @@ def test_steps_are_those_of_the_paper():
 def test_samples_are_enough():
     source, target, order, D = bent_creature()
     start = noisy_start()
-    few, all_of_them = (zoomout(start, step=4, samples=s) for s in (200, target.n))
+    few = zoomout(start, step=2, samples=300)
     before, after = (D[found.point_map, order].mean() for found in (start, few))
-    assert after < 0.7 * before
+    assert after < 0.65 * before
     C = np.linalg.lstsq(unit_vectors(target, 24), unit_vectors(source, 24)[start.point_map])[0]
     one = zoomout(start, 24, step=4, samples=target.n)
     np.testing.assert_allclose(one.matrix, C, atol=1e-8)
-    assert D[all_of_them.point_map, order].mean() < 0.7 * before
     for samples in (79, target.n + 1, 100.5):
         with pytest.raises(BeltramiError, match="samples"):
             zoomout(start, samples=samples)
