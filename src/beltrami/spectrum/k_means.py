@@ -8,6 +8,7 @@ from beltrami._arrays import Floats, Integers
 from beltrami.errors import ConvergenceError
 
 _ROUNDS = 1000
+_ROUNDING = 1e-12  # a smaller decrease may go on forever among equal points
 _STARTS = 8  # the best of as many is taken
 
 
@@ -62,13 +63,14 @@ def _start(points: Floats, weights: Floats, count: int, rng: np.random.Generator
 
 
 def _lloyd(points: Floats, weights: Floats, centres: Floats) -> tuple[Integers, float]:
-    """Move each centre to the mean of its cluster until no point changes; the sum decreases."""
-    labels = np.full(len(points), -1, np.int64)
+    """Move each centre to the mean of its cluster while the sum decreases."""
+    labels, total = np.full(len(points), -1, np.int64), np.inf
     for _ in range(_ROUNDS):
         squares = np.stack([((points - centre) ** 2).sum(axis=1) for centre in centres], axis=1)
         nearest = squares.argmin(axis=1)
-        if np.array_equal(nearest, labels):
-            return labels, float(weights @ squares[np.arange(len(points)), labels])
+        before, total = total, float(weights @ squares[np.arange(len(points)), nearest])
+        if np.array_equal(nearest, labels) or total >= before * (1 - _ROUNDING):
+            return nearest, total
         labels = nearest
         for label in np.unique(labels):
             mine = labels == label
