@@ -11,9 +11,10 @@ from numpy.typing import ArrayLike
 from beltrami._arrays import Floats, Integers, as_function, as_indices, read_only
 from beltrami.errors import BeltramiError, DimensionError
 from beltrami.spectrum.basis import FourierBasis
+from beltrami.spectrum.masses import total_mass
 from beltrami.spectrum.null_space import positive_modes, true_zeros
+from beltrami.spectrum.numbers import as_count
 from beltrami.spectrum.point_maps import map_of_points, nearest_points, nearest_points_back
-from beltrami.spectrum.signature import as_count, total_mass
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -89,7 +89,7 @@ def spectral_distance(
     Parameters
     ----------
     basis
-        k eigenpairs of any pair (L, B).
+        The k smallest eigenpairs of any pair (L, B).
     sources
         One vertex, several, or a mask of n truth values: the distance is from the nearest.
     kind, time

@@ -17,7 +17,7 @@ from beltrami.spectrum.correspondence import (
     unit_vectors,
     with_point_map,
 )
-from beltrami.spectrum.signature import total_mass
+from beltrami.spectrum.masses import total_mass
 
 _RANK = 1e-12  # of the rows' systems: smaller singular values are not determined
 

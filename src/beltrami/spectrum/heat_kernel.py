@@ -7,16 +7,11 @@ from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats
 from beltrami.spectrum.basis import FourierBasis
+from beltrami.spectrum.masses import total_mass
 from beltrami.spectrum.null_space import ZERO, positive_modes, true_zeros
-from beltrami.spectrum.signature import (
-    Signature,
-    as_count,
-    as_samples,
-    missing_squares,
-    total_mass,
-    weighted_squares,
-    worst_ratio,
-)
+from beltrami.spectrum.numbers import as_count, as_samples
+from beltrami.spectrum.signature import Signature, weighted_squares
+from beltrami.spectrum.truncation import missing_squares, worst_ratio
 
 
 def heat_kernel_signature(
@@ -37,7 +32,7 @@ def heat_kernel_signature(
     Parameters
     ----------
     basis
-        k eigenpairs of any pair (L, B).
+        The k smallest eigenpairs of any pair (L, B).
     times
         One or q times, >= 0, in length² with area masses. Default: ``count`` of them, evenly
         in the logarithm, from :math:`4 \ln 10 / \lambda_{last}` to

@@ -13,8 +13,9 @@ from beltrami.mesh.connectivity import component_labels
 from beltrami.spectrum.basis import FourierBasis
 from beltrami.spectrum.distances import spectral_embedding
 from beltrami.spectrum.k_means import in_order_of_appearance, k_means
+from beltrami.spectrum.masses import vertex_masses
 from beltrami.spectrum.null_space import ZERO, positive_modes
-from beltrami.spectrum.signature import as_count, vertex_masses
+from beltrami.spectrum.numbers import as_count
 
 _FAR = 10.0  # from one component to another, in extents of the embedding
 
@@ -67,7 +68,7 @@ def segment(
     Parameters
     ----------
     basis
-        k eigenpairs of any pair (L, B).
+        The k smallest eigenpairs of any pair (L, B).
     count
         How many segments.
     kind, time
@@ -138,7 +139,7 @@ def nodal_domains(basis: FourierBasis, mode: int, edges: ArrayLike) -> Segmentat
     Parameters
     ----------
     basis
-        k eigenpairs of any pair (L, B).
+        The k smallest eigenpairs of any pair (L, B).
     mode
         Which eigenvector, from 0.
     edges

@@ -5,8 +5,8 @@ from __future__ import annotations
 from beltrami._arrays import Floats
 from beltrami.errors import check_name
 from beltrami.spectrum.basis import FourierBasis
+from beltrami.spectrum.masses import total_mass
 from beltrami.spectrum.null_space import ZERO, positive_modes, true_zeros
-from beltrami.spectrum.signature import total_mass
 
 NORMALIZATIONS = ("area", "first", "none")
 
@@ -23,7 +23,7 @@ def shape_dna(
     Parameters
     ----------
     basis
-        k eigenpairs of any pair (L, B).
+        The k smallest eigenpairs of any pair (L, B).
     normalization
         ``"area"``: :math:`A \lambda_i` with :math:`A = \langle 1, 1\rangle_B`, which grows like
         :math:`4\pi i` on every surface (Weyl). ``"first"``: :math:`\lambda_i / \lambda_1` with the

@@ -1,4 +1,4 @@
-"""Signature: functions on the vertices that a spectrum makes, and what its end leaves out."""
+"""Signature: functions on the vertices that a spectrum makes."""
 
 from __future__ import annotations
 
@@ -6,10 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from beltrami._arrays import Booleans, Floats, as_function, read_only, rectangular
-from beltrami.errors import BeltramiError
+from beltrami._arrays import Floats, read_only
 from beltrami.spectrum.basis import FourierBasis
 
 _ROWS = 4096  # of the eigenvectors, squared at once
@@ -59,65 +57,3 @@ def weighted_squares(basis: FourierBasis, weights: Floats) -> Floats:
         rows = slice(start, start + _ROWS)
         result[rows] = basis.eigenvectors[rows] ** 2 @ weights
     return result
-
-
-def missing_squares(basis: FourierBasis) -> Floats:
-    r"""Bound the (n,) sums of :math:`\varphi_i(x)^2` over the modes beyond the basis.
-
-    All modes together give :math:`(B^{-1})_{xx}`. For a diagonal B this is 1/b, and the bound is
-    an equality; the consistent mass is at least a quarter of its row sums (on one face its
-    eigenvalues are 1/4, 1/4 and 1 times the lumped ones), so it is at most 4/b. Where all vectors
-    are 0, vertices are held at 0, and nothing is missing.
-    """
-    if not missing_modes(basis):
-        return np.zeros(basis.n)
-    sums = vertex_masses(basis)
-    diagonal = np.array_equal(sums, basis.mass.diagonal())
-    whole = (1.0 if diagonal else 4.0) / sums
-    seen = weighted_squares(basis, np.ones((basis.k, 1)))[:, 0]
-    return np.where(_free(basis), np.maximum(whole - seen, 0.0), 0.0)
-
-
-def missing_modes(basis: FourierBasis) -> int:
-    """Return how many modes are beyond the basis."""
-    return int(_free(basis).sum()) - basis.k
-
-
-def _free(basis: FourierBasis) -> Booleans:
-    return np.asarray(basis.eigenvectors.any(axis=1))
-
-
-def worst_ratio(parts: Floats, values: Floats) -> Floats:
-    """Return the (q,) largest part beside its value, 0 for nothing beside nothing."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ratios = np.where(parts > 0, parts / values, 0.0)
-    return np.asarray(ratios.max(axis=0))
-
-
-def as_samples(samples: ArrayLike, what: str, *, positive: bool = False) -> Floats:
-    """Check one number or a list of finite numbers, which must be >= 0 if they are positive."""
-    given = np.atleast_1d(rectangular(samples)).astype(np.float64)
-    if given.ndim != 1 or not len(given):
-        raise BeltramiError(f"{what} must be a number or a list of numbers")
-    values = as_function(given, len(given), what)
-    if positive and values.min() < 0:
-        raise BeltramiError(f"{what} must be >= 0, not {values.min():g}")
-    return values
-
-
-def as_count(count: int, what: str, least: int = 1) -> int:
-    """Check a whole number from ``least`` on."""
-    whole = rectangular(count)
-    if whole.ndim or whole.dtype.kind not in "iu" or whole < least:
-        raise BeltramiError(f"{what} must be a whole number >= {least}, not {count}")
-    return int(whole)
-
-
-def vertex_masses(basis: FourierBasis) -> Floats:
-    """Return the (n,) row sums of B."""
-    return np.asarray(basis.mass.sum(axis=1), dtype=np.float64).ravel()
-
-
-def total_mass(basis: FourierBasis) -> float:
-    """Return <1, 1>_B: the area of the surface with area masses."""
-    return float(basis.mass.sum())

@@ -8,17 +8,11 @@ from numpy.typing import ArrayLike
 from beltrami._arrays import Floats
 from beltrami.errors import BeltramiError, MeshError
 from beltrami.spectrum.basis import FourierBasis
+from beltrami.spectrum.masses import total_mass
 from beltrami.spectrum.null_space import ZERO, positive_modes
-from beltrami.spectrum.signature import (
-    Signature,
-    as_count,
-    as_samples,
-    missing_modes,
-    missing_squares,
-    total_mass,
-    weighted_squares,
-    worst_ratio,
-)
+from beltrami.spectrum.numbers import as_count, as_samples
+from beltrami.spectrum.signature import Signature, weighted_squares
+from beltrami.spectrum.truncation import missing_modes, missing_squares, worst_ratio
 
 _STEPS = 7  # the width of a band, in steps from one energy to the next (the paper's choice)
 
@@ -42,7 +36,7 @@ def wave_kernel_signature(
     Parameters
     ----------
     basis
-        k eigenpairs of any pair (L, B).
+        The k smallest eigenpairs of any pair (L, B).
     energies
         One or q logarithms e of eigenvalues. Default: ``count`` of them, evenly from
         :math:`\log\lambda_{first} + 2\sigma` to :math:`\log\lambda_{last} - 2\sigma`.

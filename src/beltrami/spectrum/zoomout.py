@@ -11,9 +11,10 @@ from beltrami.spectrum.correspondence import (
     unit_vectors,
     with_point_map,
 )
+from beltrami.spectrum.masses import total_mass
 from beltrami.spectrum.nearest import spread_rows
+from beltrami.spectrum.numbers import as_count
 from beltrami.spectrum.point_maps import map_of_points, map_of_samples, nearest_points
-from beltrami.spectrum.signature import as_count, total_mass
 
 
 def zoomout(
