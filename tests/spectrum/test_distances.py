@@ -164,6 +164,11 @@ def test_other_components(kind):
     assert np.array_equal(spectral_distance(basis, mask, **how), both)
 
 
+def test_after_a_long_time_only_components_are_told_apart():
+    d = spectral_distance(spectra.basis_of("two", 9), 0, "diffusion", time=1e308)
+    assert np.abs(d[:162]).max() < 1e-6 < 0.1 < d[162:].min()
+
+
 def test_on_the_sphere_they_grow_with_the_angle():
     sphere = spectra.mesh_of("sphere")
     angle = np.arccos(np.clip(sphere.vertices @ sphere.vertices[0], -1, 1))

@@ -61,7 +61,8 @@ def spectral_embedding(
     if time is not None:
         if not (math.isfinite(time) and time >= 0):
             raise BeltramiError(f"time must be finite and >= 0, not {time}")
-        weights = np.exp(-values * time)
+        with np.errstate(over="ignore"):  # e to the minus infinity is 0
+            weights = np.exp(-values * time)
     else:
         weights = np.zeros(basis.k)
         weights[zeros:] = values[zeros:] ** (-1.0 if kind == "biharmonic" else -0.5)

@@ -88,7 +88,8 @@ def heat_kernel_signature(
         at = _automatic(basis, count, tolerance) / unit
     else:
         at = as_samples(times, "times", positive=True)
-    decay = np.exp(-np.outer(true_zeros(basis, tolerance), at * unit))
+    with np.errstate(over="ignore"):  # e to the minus infinity is 0
+        decay = np.exp(-np.outer(true_zeros(basis, tolerance) * unit, at))
     values = weighted_squares(basis, decay)
     missing = np.outer(missing_squares(basis), decay[-1])
     return Signature(values * unit, at, "heat", worst_ratio(missing, values))
