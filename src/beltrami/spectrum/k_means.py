@@ -64,9 +64,11 @@ def _start(points: Floats, weights: Floats, count: int, rng: np.random.Generator
 
 def _lloyd(points: Floats, weights: Floats, centres: Floats) -> tuple[Integers, float]:
     """Move each centre to the mean of its cluster while the sum decreases."""
+    from scipy.spatial.distance import cdist  # slow to load
+
     labels, total = np.full(len(points), -1, np.int64), np.inf
     for _ in range(_ROUNDS):
-        squares = np.stack([((points - centre) ** 2).sum(axis=1) for centre in centres], axis=1)
+        squares = cdist(points, centres, "sqeuclidean")
         nearest = squares.argmin(axis=1)
         before, total = total, float(weights @ squares[np.arange(len(points)), nearest])
         if np.array_equal(nearest, labels) or total >= before * (1 - _ROUNDING):
