@@ -53,6 +53,16 @@ def beside(one: Mesh, two: Mesh) -> Mesh:
     )
 
 
+@cache
+def sheet_and_scroll() -> tuple[FourierBasis, FourierBasis]:
+    """A flat grid, and the same faces rolled up: an isometry of polyhedra."""
+    flat = shapes.grid(9, 14, 2.0, 14 * 2 * np.sin(0.1))
+    x, y = flat.vertices.T[:2]
+    turn = (y - y.min()) / (2 * np.sin(0.1)) * 0.2  # chords of 0.2 of the unit circle
+    scroll = flat.with_vertices(np.column_stack([x, np.cos(turn), np.sin(turn)]))
+    return fourier_basis(laplacian(flat), 30), fourier_basis(laplacian(scroll), 30)
+
+
 def permuted(mesh: Mesh, seed: int = 7) -> tuple[Mesh, np.ndarray]:
     """The same surface with other numbers; new vertex i was vertex order[i]."""
     order = np.random.default_rng(seed).permutation(mesh.n_vertices)

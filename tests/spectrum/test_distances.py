@@ -122,6 +122,8 @@ def test_what_must_not_matter(kind):
     np.testing.assert_allclose(
         spectral_distance(again, at, **how), d[order], rtol=1e-6, atol=1e-9 * d.max()
     )
+    one, two = (spectral_distance(b, 3, **how) for b in spectra.sheet_and_scroll())
+    np.testing.assert_allclose(one, two, rtol=1e-6, atol=1e-9 * one.max())
     torus = spectra.flat_torus()
     how = options(kind, torus)
     one, two = (spectral_distance(b, 3, **how) for b in (torus, spectra.turned(torus)))

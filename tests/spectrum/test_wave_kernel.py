@@ -57,6 +57,11 @@ def test_numbers_of_vertices_do_not_matter(name):
     np.testing.assert_allclose(two.values, one.values[order], rtol=1e-6)
 
 
+def test_isometries_do_not_matter():
+    one, two = (wave_kernel_signature(basis) for basis in spectra.sheet_and_scroll())
+    np.testing.assert_allclose(two.values, one.values, rtol=1e-6)
+
+
 def test_the_choice_within_eigenspaces_does_not_matter():
     for basis in (spectra.flat_torus(), spectra.basis_of("tor")):
         one, two = (wave_kernel_signature(b) for b in (basis, spectra.turned(basis)))
