@@ -24,7 +24,8 @@ def missing_squares(basis: FourierBasis) -> Floats:
     diagonal = np.array_equal(sums, basis.mass.diagonal())
     whole = (1.0 if diagonal else 4.0) / sums
     seen = weighted_squares(basis, np.ones((basis.k, 1)))[:, 0]
-    return np.where(_free(basis), np.maximum(whole - seen, 0.0), 0.0)
+    rounding = basis.k * np.finfo(np.float64).eps * whole  # of the sum
+    return np.where(_free(basis), np.maximum(whole - seen, 0.0) + rounding, 0.0)
 
 
 def missing_modes(basis: FourierBasis) -> int:
