@@ -107,7 +107,12 @@ def test_two_different_sizes():
     source, target = spectra.basis_of("closed", 12), spectra.basis_of("obt", 9)
     pairs = np.column_stack([np.arange(0, 300, 15)] * 2)
     found = functional_map(source, target, landmarks=pairs)
-    assert found.matrix.shape == (9, 12)
+    C = found.matrix
+    assert C.shape == (9, 12)
+    assert found.orthogonality == pytest.approx(np.linalg.norm(C.T @ C - np.eye(12)) / 12**0.5)
+    right, left = C * unit_eigenvalues(source), unit_eigenvalues(target)[:, None] * C
+    whole = np.linalg.norm(right) + np.linalg.norm(left)
+    assert found.commutativity_residual == pytest.approx(np.linalg.norm(right - left) / whole)
     assert functional_map(source, target, landmarks=pairs, k=5).matrix.shape == (5, 5)
     assert found.point_map.shape == (target.n,)
     assert found.backward().shape == (source.n,)
