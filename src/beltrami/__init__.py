@@ -20,9 +20,14 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from beltrami import errors as errors
+    from beltrami.diffusion.bumps import gaussian_bumps as gaussian_bumps
     from beltrami.diffusion.heat import heat as heat
+    from beltrami.diffusion.interpolate import interpolate as interpolate
+    from beltrami.diffusion.poisson import poisson as poisson
+    from beltrami.diffusion.regularize import regularize as regularize
     from beltrami.diffusion.smooth_mesh import smooth_mesh as smooth_mesh
     from beltrami.diffusion.smoothing import smooth as smooth
+    from beltrami.diffusion.wave import wave as wave
     from beltrami.display.light import DirectionalLight as DirectionalLight
     from beltrami.display.light import SpotLight as SpotLight
     from beltrami.display.render import render as render
@@ -136,11 +141,13 @@ _HOME = {
     "fourier_basis": "spectrum.fourier_basis",
     "functional_map": "spectrum.functional_map",
     "functional_map_from_points": "spectrum.correspondence",
+    "gaussian_bumps": "diffusion.bumps",
     "geodesic_distance": "geodesics.distance",
     "heat": "diffusion.heat",
     "heat_kernel_signature": "spectrum.heat_kernel",
     "idft": "grids.transform",
     "integrate": "operators.integrals",
+    "interpolate": "diffusion.interpolate",
     "intrinsic_delaunay": "operators.intrinsic",
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",
@@ -148,9 +155,11 @@ _HOME = {
     "minres": "solvers.minres",
     "nodal_domains": "spectrum.segment",
     "plot_spectrum": "display.spectrum_plot",
+    "poisson": "diffusion.poisson",
     "project": "operators.projection",
     "read_function": "io.function",
     "read_mesh": "io.registry",
+    "regularize": "diffusion.regularize",
     "render": "display.render",
     "repair": "mesh.repair",
     "segment": "spectrum.segment",
@@ -160,6 +169,7 @@ _HOME = {
     "spectral_distance": "spectrum.distances",
     "spectral_embedding": "spectrum.distances",
     "vertex_areas": "operators.areas",
+    "wave": "diffusion.wave",
     "wave_kernel_signature": "spectrum.wave_kernel",
     "write_mesh": "io.registry",
     "zoomout": "spectrum.zoomout",

@@ -13,10 +13,12 @@ from beltrami.cli.geodesics import geodesics
 from beltrami.cli.heat import heat
 from beltrami.cli.info import info
 from beltrami.cli.integrate import integrate
+from beltrami.cli.regularize import regularize
 from beltrami.cli.render import render
 from beltrami.cli.repair import repair
 from beltrami.cli.smooth import smooth
 from beltrami.cli.tour import tour
+from beltrami.cli.wave import wave
 
 app = typer.Typer(
     name="beltrami",
@@ -31,6 +33,8 @@ for verb in (
     repair,
     smooth,
     heat,
+    wave,
+    regularize,
     curvature,
     geodesics,
     integrate,
