@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from beltrami.cli.curvature import curvature
+from beltrami.cli.denoise import denoise
 from beltrami.cli.descriptors import descriptors
 from beltrami.cli.endings import ending_well
 from beltrami.cli.geodesics import geodesics
@@ -32,6 +33,7 @@ for verb in (
     info,
     repair,
     smooth,
+    denoise,
     heat,
     wave,
     regularize,
