@@ -64,8 +64,10 @@ if TYPE_CHECKING:
     from beltrami.operators.weights import edge_weights as edge_weights
     from beltrami.solvers.factor import Factor as Factor
     from beltrami.solvers.factorize import factorize as factorize
+    from beltrami.solvers.inverse_iteration import InverseIteration as InverseIteration
     from beltrami.spectrum.basis import FourierBasis as FourierBasis
     from beltrami.spectrum.fourier_basis import fourier_basis as fourier_basis
+    from beltrami.spectrum.inverse_iteration import inverse_iteration as inverse_iteration
     from beltrami.surfaces.atlas import Atlas as Atlas
     from beltrami.surfaces.ball_average import ball_average_laplacian as ball_average_laplacian
     from beltrami.surfaces.domain import Disk as Disk
@@ -86,6 +88,7 @@ _HOME = {
     "Grid": "grids.grid",
     "HeatMethod": "geodesics.heat_method",
     "IntrinsicTriangulation": "operators.intrinsic",
+    "InverseIteration": "solvers.inverse_iteration",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
     "ParametricSurface": "surfaces.surface",
@@ -115,6 +118,7 @@ _HOME = {
     "idft": "grids.transform",
     "integrate": "operators.integrals",
     "intrinsic_delaunay": "operators.intrinsic",
+    "inverse_iteration": "spectrum.inverse_iteration",
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",
