@@ -68,6 +68,8 @@ if TYPE_CHECKING:
     from beltrami.spectrum.basis import FourierBasis as FourierBasis
     from beltrami.spectrum.fourier_basis import fourier_basis as fourier_basis
     from beltrami.spectrum.inverse_iteration import inverse_iteration as inverse_iteration
+    from beltrami.spectrum.nodal_domains import NodalDomains as NodalDomains
+    from beltrami.spectrum.nodal_domains import nodal_domains as nodal_domains
     from beltrami.surfaces.atlas import Atlas as Atlas
     from beltrami.surfaces.ball_average import ball_average_laplacian as ball_average_laplacian
     from beltrami.surfaces.domain import Disk as Disk
@@ -91,6 +93,7 @@ _HOME = {
     "InverseIteration": "solvers.inverse_iteration",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
+    "NodalDomains": "spectrum.nodal_domains",
     "ParametricSurface": "surfaces.surface",
     "PointCloud": "operators.point_cloud",
     "Rectangle": "surfaces.domain",
@@ -122,6 +125,7 @@ _HOME = {
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",
+    "nodal_domains": "spectrum.nodal_domains",
     "project": "operators.projection",
     "read_function": "io.function",
     "read_mesh": "io.registry",
