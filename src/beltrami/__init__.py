@@ -68,6 +68,7 @@ if TYPE_CHECKING:
     from beltrami.spectrum.basis import FourierBasis as FourierBasis
     from beltrami.spectrum.fourier_basis import fourier_basis as fourier_basis
     from beltrami.spectrum.inverse_iteration import inverse_iteration as inverse_iteration
+    from beltrami.spectrum.load_basis import load_basis as load_basis
     from beltrami.spectrum.nodal_domains import NodalDomains as NodalDomains
     from beltrami.spectrum.nodal_domains import nodal_domains as nodal_domains
     from beltrami.surfaces.atlas import Atlas as Atlas
@@ -125,6 +126,7 @@ _HOME = {
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",
+    "load_basis": "spectrum.load_basis",
     "nodal_domains": "spectrum.nodal_domains",
     "project": "operators.projection",
     "read_function": "io.function",
