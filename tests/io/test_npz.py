@@ -56,7 +56,7 @@ def test_numpy_reads_it(place):
 def test_another_kind_or_version(place):
     with pytest.raises(FileFormatError, match="expected a basis, found 'sample'"):
         read_arrays(place, "basis", 3)
-    with pytest.raises(FileFormatError, match="expected version 2 .* found 3"):
+    with pytest.raises(FileFormatError, match=r"expected version 2 .* found 3"):
         read_arrays(place, "sample", 2)
 
 
