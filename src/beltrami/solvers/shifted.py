@@ -92,15 +92,15 @@ class Minres:
         one, as long as that helps.
         """
         x, count, size = np.zeros_like(b), 0, self._norm(b)
-        enough = tolerance * size
-        while not (done := self._is_solution(x, b, enough)) and count < self.max_iterations:
+        enough, before = tolerance * size, np.inf
+        while size < before / 2 and count < self.max_iterations:
             y, steps = self._once(x, b, enough, self.max_iterations - count)
-            count += steps
-            smaller = self._norm(b - self.A @ y)
-            if not smaller < size / 2:
+            count, before, smaller = count + steps, size, self._norm(b - self.A @ y)
+            if smaller < size:
+                x, size = y, smaller
+            if self._is_solution(x, b, enough):
                 break
-            x, size = y, smaller
-        if not done:
+        else:
             raise ConvergenceError(
                 f"MINRES stopped after {count} iterations with a relative residual of "
                 f"{size / self._norm(b):.1e} where {tolerance:.1e} is needed. The nearer the shift "
