@@ -55,7 +55,7 @@ def test_the_tolerance_is_kept_by_the_vector(tolerance):
         assert tolerance / 1000 < off < 1.2 * tolerance
 
 
-@pytest.mark.parametrize("unit", [1e-12, 1e-9, 1e9])
+@pytest.mark.parametrize("unit", [1e-40, 1e-9, 1e9, 1e40])
 @pytest.mark.parametrize("solver", SHIFTED_SOLVERS)
 def test_units_do_not_count(unit, solver):
     mesh = MESHES["cur"]()

@@ -111,21 +111,22 @@ class Minres:
     def _once(self, x: Floats, b: Floats, enough: float, most: int) -> tuple[Floats, int]:
         """Run MINRES for the residual of x; return the better x, and the number of steps."""
         count, reached = 0, x
+        right = self.scale * (b - self.A @ x)
+        size = np.linalg.norm(right)  # scipy has thresholds without a unit
 
         def look(y: Floats) -> None:
             nonlocal count, reached
             count += 1
             if count % _LOOK == 0:
-                reached = x + self.scale * y
+                reached = x + size * self.scale * y
                 if self._is_solution(reached, b, enough):
                     raise _ReachedError
 
-        right = self.scale * (b - self.A @ x)
         try:
-            y, _ = minres(self.scaled, right, rtol=0, maxiter=most, callback=look)
+            y, _ = minres(self.scaled, right / size, rtol=0, maxiter=most, callback=look)
         except _ReachedError:
             return reached, count
-        return x + self.scale * y, count
+        return x + size * self.scale * y, count
 
     def _norm(self, r: Floats) -> float:
         return float(np.linalg.norm(r / np.sqrt(self.masses)))
