@@ -6,7 +6,7 @@ import beltrami as bt
 from beltrami.errors import DimensionError, FileFormatError, MeshError
 from beltrami.io.npz import read_arrays, write_arrays
 from beltrami.operators.pair import MASSES
-from beltrami.spectrum.basis import FILE_KIND, FILE_VERSION
+from beltrami.spectrum.basis_file import KIND, VERSION
 from meshes_of_the_errata import IRREGULAR, MESHES
 
 
@@ -112,10 +112,10 @@ def test_the_wrong_weights_with_the_same_masses(place, mass):
 
 
 def _rewritten(place, **changes):
-    arrays = dict(read_arrays(place, FILE_KIND, FILE_VERSION))
+    arrays = dict(read_arrays(place, KIND, VERSION))
     for name, change in changes.items():
         arrays[name] = change(arrays[name])
-    write_arrays(place, FILE_KIND, FILE_VERSION, {k: v for k, v in arrays.items() if v is not None})
+    write_arrays(place, KIND, VERSION, {k: v for k, v in arrays.items() if v is not None})
 
 
 @pytest.mark.parametrize(

@@ -41,12 +41,11 @@ def test_combinatorial_weights_know_the_topology_only():
     moved = mesh.with_vertices(mesh.vertices * [1, 2] + 0.1 * np.sin(mesh.vertices[:, ::-1]))
     for kind, same in (("combinatorial", True), ("distance", False), ("cotangent", False)):
         one, other = (fourier_basis(laplacian(m, kind, "degree"), 12) for m in (mesh, moved))
-        assert np.array_equal(one.eigenvalues, other.eigenvalues) == same
-        assert np.array_equal(one.eigenvectors, other.eigenvectors) == same
-    of_faces = fourier_basis(laplacian(mesh.topology), 12)
-    assert np.array_equal(
-        of_faces.eigenvectors, fourier_basis(laplacian(mesh, "combinatorial"), 12).eigenvectors
-    )
+        assert np.allclose(one.eigenvalues, other.eigenvalues, rtol=1e-9) == same
+        assert np.allclose(one.eigenvectors, other.eigenvectors, atol=1e-6) == same
+    of_faces = fourier_basis(laplacian(mesh.topology), 12).eigenvectors
+    of_mesh = fourier_basis(laplacian(mesh, "combinatorial"), 12).eigenvectors
+    assert np.allclose(of_faces, of_mesh, atol=1e-6)
 
 
 def test_the_transforms_differ():

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,10 +11,7 @@ from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats, as_function, read_only, read_only_matrix
 from beltrami.errors import DimensionError, NonFiniteError
-from beltrami.io.npz import write_arrays
-
-FILE_KIND: Final = "Fourier basis"
-FILE_VERSION: Final = 1
+from beltrami.spectrum.basis_file import write_basis
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -47,6 +43,18 @@ class FourierBasis:
     def __repr__(self) -> str:
         return f"<FourierBasis: {self.k} of {self.n} eigenpairs>"
 
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the basis to a file (npz), as a whole or not at all; ``load_basis`` reads it.
+
+        The same basis gives the same bytes. Size: 8 n (k + 2) bytes.
+
+        Raises
+        ------
+        OSError
+            If the folder does not exist or cannot be written.
+        """
+        write_basis(path, self.eigenvalues, self.eigenvectors, self.residuals, self.mass)
+
     @property
     def n(self) -> int:
         """Number of vertices n."""
@@ -72,23 +80,3 @@ class FourierBasis:
         if not np.isfinite(values).all():
             raise NonFiniteError("coefficients have values that are NaN or infinite")
         return np.asarray(self.eigenvectors @ values)
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the basis to a file (npz), as a whole or not at all; ``load_basis`` reads it.
-
-        The same basis gives the same bytes. Size: 8 n (k + 2) bytes.
-
-        Raises
-        ------
-        OSError
-            If the folder does not exist or cannot be written.
-        """
-        arrays = {
-            "eigenvalues": self.eigenvalues,
-            "eigenvectors": self.eigenvectors,
-            "residuals": self.residuals,
-            "mass": self.mass.data,
-            "mass_columns": self.mass.indices,
-            "mass_starts": self.mass.indptr,
-        }
-        write_arrays(path, FILE_KIND, FILE_VERSION, arrays)

@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 import os
-from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.sparse import csr_array
 
-from beltrami._arrays import Floats
-from beltrami.errors import DimensionError, FileFormatError, MeshError
-from beltrami.io.npz import read_arrays
+from beltrami.errors import DimensionError, MeshError
 from beltrami.operators.pair import Laplacian
-from beltrami.spectrum.basis import FILE_KIND, FILE_VERSION, FourierBasis
+from beltrami.spectrum.basis import FourierBasis
+from beltrami.spectrum.basis_file import read_basis
 
 _MASS = 1e-9  # relative difference of masses that another machine may make
 _ROUNDING = 1e-11  # of L f, beside |L| |f|
@@ -63,49 +58,11 @@ def load_basis(path: str | os.PathLike[str], laplacian: Laplacian | None = None)
     ...     load_basis(place, pair)
     <FourierBasis: 9 of 162 eigenpairs>
     """
-    place = Path(path)
-    arrays = read_arrays(place, FILE_KIND, FILE_VERSION)
-    try:
-        basis = _basis(arrays)
-    except (KeyError, ValueError) as cause:
-        raise FileFormatError(place, f"expected the arrays of a basis ({cause})") from cause
+    values, vectors, residuals, mass = read_basis(path)
+    basis = FourierBasis(values, vectors, mass, residuals)
     if laplacian is not None:
         _require_same(basis, laplacian)
     return basis
-
-
-def _basis(arrays: dict[str, NDArray[Any]]) -> FourierBasis:
-    """Make the basis; KeyError or ValueError if its arrays do not belong together."""
-    values, vectors, residuals, data = (
-        _floats(arrays[name]) for name in ("eigenvalues", "eigenvectors", "residuals", "mass")
-    )
-    if vectors.ndim != 2 or not (values.shape == residuals.shape == vectors.shape[1:]):
-        raise ValueError(f"shapes {values.shape}, {vectors.shape} and {residuals.shape}")
-    if (np.diff(values) < 0).any():
-        raise ValueError("eigenvalues that do not ascend")
-    n = len(vectors)
-    starts, columns = arrays["mass_starts"], arrays["mass_columns"]
-    if data.ndim != 1 or columns.shape != data.shape or starts.shape != (n + 1,):
-        raise ValueError("the mass has other shapes")
-    if starts.dtype.kind != "i" or columns.dtype.kind != "i":
-        raise ValueError("the indices of the mass are no integers")
-    steps = np.diff(starts)
-    if starts[0] != 0 or starts[-1] != len(data) or (steps < 0).any():
-        raise ValueError("the rows of the mass are out of order")
-    inside = (columns >= 0) & (columns < n)
-    follows = np.diff(columns, prepend=-1) > 0
-    follows[starts[:-1][steps > 0]] = True  # the first of each row
-    if not (inside & follows).all():
-        raise ValueError("the columns of the mass are out of order")
-    return FourierBasis(values, vectors, csr_array((data, columns, starts), (n, n)), residuals)
-
-
-def _floats(array: NDArray[Any]) -> Floats:
-    if array.dtype != np.float64:
-        raise ValueError(f"numbers of the type {array.dtype}")
-    if not np.isfinite(array).all():
-        raise ValueError("numbers that are NaN or infinite")
-    return array
 
 
 def _require_same(basis: FourierBasis, laplacian: Laplacian) -> None:
