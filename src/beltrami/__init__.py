@@ -63,9 +63,12 @@ if TYPE_CHECKING:
     from beltrami.operators.point_cloud import PointCloud as PointCloud
     from beltrami.operators.projection import project as project
     from beltrami.operators.weights import edge_weights as edge_weights
+    from beltrami.solvers.conjugate_gradients import conjugate_gradients as conjugate_gradients
     from beltrami.solvers.factor import Factor as Factor
     from beltrami.solvers.factorize import factorize as factorize
     from beltrami.solvers.inverse_iteration import InverseIteration as InverseIteration
+    from beltrami.solvers.iteration import IterativeSolution as IterativeSolution
+    from beltrami.solvers.minres import minres as minres
     from beltrami.spectrum.basis import FourierBasis as FourierBasis
     from beltrami.spectrum.fourier_basis import fourier_basis as fourier_basis
     from beltrami.spectrum.inverse_iteration import inverse_iteration as inverse_iteration
@@ -93,6 +96,7 @@ _HOME = {
     "HeatMethod": "geodesics.heat_method",
     "IntrinsicTriangulation": "operators.intrinsic",
     "InverseIteration": "solvers.inverse_iteration",
+    "IterativeSolution": "solvers.iteration",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
     "NodalDomains": "spectrum.nodal_domains",
@@ -105,6 +109,7 @@ _HOME = {
     "as_mesh": "mesh.convert",
     "ball_average_laplacian": "surfaces.ball_average",
     "colouring": "operators.colouring",
+    "conjugate_gradients": "solvers.conjugate_gradients",
     "convolve": "grids.convolution",
     "curvature": "operators.curvature",
     "dft": "grids.transform",
@@ -128,6 +133,7 @@ _HOME = {
     "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",
     "load_basis": "spectrum.load_basis",
+    "minres": "solvers.minres",
     "nodal_domains": "spectrum.nodal_domains",
     "plot_spectrum": "display.spectrum_plot",
     "project": "operators.projection",
