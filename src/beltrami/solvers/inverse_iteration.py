@@ -110,7 +110,8 @@ def iterate(
         if len(changes) == max_iterations:
             raise _not_converged(changes, shift)
         allowed = _SOLVE * min(changes[-1] if changes else 1, 1)
-        w, steps = solver.solve(B @ v, allowed)
+        guess = v / (looks[-1][0] - shift) if looks and looks[-1][0] != shift else None
+        w, steps = solver.solve(B @ v, allowed, guess)
         w = w / _norm(B, w)
         across = v - (w @ (B @ v)) * w
         changes.append(_norm(B, across))
@@ -205,7 +206,7 @@ def _next_ratio(
         return np.nan
     for _ in range(_STEPS):
         rows.append(w / size)
-        w, _ = solver.solve(B @ rows[-1], _NEXT * _SOLVE)
+        w, _ = solver.solve(B @ rows[-1], _NEXT * _SOLVE, None)
         alphas.append(float(rows[-1] @ (B @ w)))
         w = _orthogonal(B, w, rows)
         size = _norm(B, w)

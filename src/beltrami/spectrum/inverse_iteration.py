@@ -40,7 +40,8 @@ def inverse_iteration(
     the line, since signs alternate where σ > λ, E65). This ρ is not a condition number (E67).
 
     Where λ is multiple the limit is the normalised B-orthogonal projection of the start on the
-    eigenspace. What the start has no part of comes in by rounding only, if at all.
+    eigenspace (nearly so with ``"minres"``). What the start has no part of comes in by rounding
+    only, if at all.
 
     Chapter items: Q3.9, T10, P53, P54, P55.
 
