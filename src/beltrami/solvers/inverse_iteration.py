@@ -13,7 +13,7 @@ from beltrami.errors import ConvergenceError, MeshError
 from beltrami.solvers.shifted import ShiftedSolver
 
 _ROUNDING = 1e-14  # a change of the line that is no change
-_MEASURED = 1e-9  # the changes below are too near to rounding to tell a rate
+_MEASURED = 1e-8  # the changes below are too near to rounding to tell a rate
 _APART = 1e-6  # likewise for directions
 _SOLVE = 0.01  # residuals of a solve beside the last change of the line
 _COPY = 1e-6  # relative distance at which an eigenvalue is the same one again
