@@ -92,3 +92,18 @@ def test_singular_matrices_are_named_by_their_shift():
         shifted_solver(pair.stiffness, pair.mass, 0.0, "ldl")
     assert len(caught.value.rows) == 1
     assert 'solver="lu"' in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["open", "closed"])
+def test_rows_are_scaled_by_their_largest_entries(name):
+    """By nothing, or by the diagonal, which a shift may cancel, takes longer."""
+    pair, values = _system(name)
+    shift = 0.7 * values[100] + 0.3 * values[101]
+    solver = shifted_solver(pair.stiffness, pair.mass, shift, "minres")
+    b = pair.mass @ np.random.default_rng(2).normal(size=pair.n)
+    _, steps = solver.solve(b, 1e-6, None)
+    for other in ("none", "jacobi"):
+        longer = bt.minres(
+            solver.A, b / solver.root, tolerance=1e-6, kernel=None, preconditioner=other
+        )
+        assert longer.iterations > 1.3 * steps
