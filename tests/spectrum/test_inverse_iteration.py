@@ -166,3 +166,14 @@ def test_ldl_that_needs_exchanges_is_refused_and_lu_does_it():
     with pytest.raises(BeltramiError, match='solver="lu"'):
         bt.inverse_iteration(four, 1, solver="ldl")
     assert bt.inverse_iteration(four, 1, solver="lu").eigenvalue == pytest.approx(2 - np.sqrt(2))
+
+
+def test_a_vertex_without_edges():
+    W = csr_array(np.diag([1.0, 0], 1) + np.diag([1.0, 0], -1))
+    pair = bt.laplacian(W, mass="unit")  # eigenvalues 0, 0 and 2
+    for solver in SHIFTED_SOLVERS:
+        with pytest.raises(BeltramiError):
+            bt.inverse_iteration(pair, 0, solver=solver)
+        found = bt.inverse_iteration(pair, 0.3, [1, 1, 1], solver=solver)
+        assert np.allclose(found.eigenvector, np.sqrt(1 / 3), atol=1e-9)
+        assert np.isnan(found.predicted_rate)

@@ -82,7 +82,8 @@ class Minres:
     @cached_property
     def largest(self) -> Floats:
         """(n,) largest entries of the rows; the diagonal may be zero by chance."""
-        return abs(self.A).max(axis=1).toarray().ravel()
+        largest = abs(self.A).max(axis=1).toarray().ravel()
+        return np.where(largest > 0, largest, 1.0)
 
     def precondition(self, r: Floats) -> Floats:
         """Divide by the largest entries of the rows."""
