@@ -20,9 +20,14 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from beltrami import errors as errors
+    from beltrami.diffusion.bumps import gaussian_bumps as gaussian_bumps
     from beltrami.diffusion.heat import heat as heat
+    from beltrami.diffusion.interpolate import interpolate as interpolate
+    from beltrami.diffusion.poisson import poisson as poisson
+    from beltrami.diffusion.regularize import regularize as regularize
     from beltrami.diffusion.smooth_mesh import smooth_mesh as smooth_mesh
     from beltrami.diffusion.smoothing import smooth as smooth
+    from beltrami.diffusion.wave import wave as wave
     from beltrami.display.light import DirectionalLight as DirectionalLight
     from beltrami.display.light import SpotLight as SpotLight
     from beltrami.display.render import render as render
@@ -123,10 +128,12 @@ _HOME = {
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
     "fourier_basis": "spectrum.fourier_basis",
+    "gaussian_bumps": "diffusion.bumps",
     "geodesic_distance": "geodesics.distance",
     "heat": "diffusion.heat",
     "idft": "grids.transform",
     "integrate": "operators.integrals",
+    "interpolate": "diffusion.interpolate",
     "intrinsic_delaunay": "operators.intrinsic",
     "inverse_iteration": "spectrum.inverse_iteration",
     "is_local": "operators.locality",
@@ -136,14 +143,17 @@ _HOME = {
     "minres": "solvers.minres",
     "nodal_domains": "spectrum.nodal_domains",
     "plot_spectrum": "display.spectrum_plot",
+    "poisson": "diffusion.poisson",
     "project": "operators.projection",
     "read_function": "io.function",
     "read_mesh": "io.registry",
+    "regularize": "diffusion.regularize",
     "render": "display.render",
     "repair": "mesh.repair",
     "smooth": "diffusion.smoothing",
     "smooth_mesh": "diffusion.smooth_mesh",
     "vertex_areas": "operators.areas",
+    "wave": "diffusion.wave",
     "write_mesh": "io.registry",
 }
 _MODULES = {"errors": "errors", "shapes": "mesh.shapes"}

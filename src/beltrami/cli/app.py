@@ -12,10 +12,12 @@ from beltrami.cli.geodesics import geodesics
 from beltrami.cli.heat import heat
 from beltrami.cli.info import info
 from beltrami.cli.integrate import integrate
+from beltrami.cli.regularize import regularize
 from beltrami.cli.render import render
 from beltrami.cli.repair import repair
 from beltrami.cli.smooth import smooth
 from beltrami.cli.tour import tour
+from beltrami.cli.wave import wave
 
 app = typer.Typer(
     name="beltrami",
@@ -25,7 +27,19 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for verb in (info, repair, smooth, heat, curvature, geodesics, integrate, render, tour):
+for verb in (
+    info,
+    repair,
+    smooth,
+    heat,
+    wave,
+    regularize,
+    curvature,
+    geodesics,
+    integrate,
+    render,
+    tour,
+):
     app.command()(ending_well(verb))
 
 
