@@ -22,6 +22,8 @@ class FourierBasis:
     eigenvectors u of the normalised Laplacian, and the transform is the :math:`U^T D^{1/2} f` of
     the chapter (E72).
 
+    Chapter items: T8, U27, U28, U29, P50, P57, P64.
+
     Attributes
     ----------
     eigenvalues : (k,) ascending
