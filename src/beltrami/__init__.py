@@ -75,6 +75,7 @@ if TYPE_CHECKING:
     from beltrami.solvers.conjugate_gradients import conjugate_gradients as conjugate_gradients
     from beltrami.solvers.factor import Factor as Factor
     from beltrami.solvers.factorize import factorize as factorize
+    from beltrami.solvers.inverse_iteration import InverseIteration as InverseIteration
     from beltrami.solvers.iteration import IterativeSolution as IterativeSolution
     from beltrami.solvers.minres import minres as minres
     from beltrami.spectrum.basis import FourierBasis as FourierBasis
@@ -87,8 +88,11 @@ if TYPE_CHECKING:
     from beltrami.spectrum.fourier_basis import fourier_basis as fourier_basis
     from beltrami.spectrum.functional_map import functional_map as functional_map
     from beltrami.spectrum.heat_kernel import heat_kernel_signature as heat_kernel_signature
+    from beltrami.spectrum.inverse_iteration import inverse_iteration as inverse_iteration
+    from beltrami.spectrum.load_basis import load_basis as load_basis
+    from beltrami.spectrum.nodal_domains import NodalDomains as NodalDomains
+    from beltrami.spectrum.nodal_domains import nodal_domains as nodal_domains
     from beltrami.spectrum.segment import Segmentation as Segmentation
-    from beltrami.spectrum.segment import nodal_domains as nodal_domains
     from beltrami.spectrum.segment import segment as segment
     from beltrami.spectrum.shape_dna import shape_dna as shape_dna
     from beltrami.spectrum.signature import Signature as Signature
@@ -117,9 +121,11 @@ _HOME = {
     "Grid": "grids.grid",
     "HeatMethod": "geodesics.heat_method",
     "IntrinsicTriangulation": "operators.intrinsic",
+    "InverseIteration": "solvers.inverse_iteration",
     "IterativeSolution": "solvers.iteration",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
+    "NodalDomains": "spectrum.nodal_domains",
     "ParametricSurface": "surfaces.surface",
     "PointCloud": "operators.point_cloud",
     "Rectangle": "surfaces.domain",
@@ -157,11 +163,13 @@ _HOME = {
     "integrate": "operators.integrals",
     "interpolate": "diffusion.interpolate",
     "intrinsic_delaunay": "operators.intrinsic",
+    "inverse_iteration": "spectrum.inverse_iteration",
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",
+    "load_basis": "spectrum.load_basis",
     "minres": "solvers.minres",
-    "nodal_domains": "spectrum.segment",
+    "nodal_domains": "spectrum.nodal_domains",
     "plot_spectrum": "display.spectrum_plot",
     "poisson": "diffusion.poisson",
     "project": "operators.projection",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -12,6 +13,7 @@ from scipy.sparse import csr_array
 from beltrami._arrays import Floats, as_function, read_only, read_only_matrix
 from beltrami.errors import DimensionError, NonFiniteError
 from beltrami.solvers.computation import Computation
+from beltrami.spectrum.basis_file import write_basis
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -21,6 +23,8 @@ class FourierBasis:
     ``fourier_basis`` makes it. With the degree mass :math:`\varphi = D^{-1/2}u` for the
     eigenvectors u of the normalised Laplacian, and the transform is the :math:`U^T D^{1/2} f` of
     the chapter (E72).
+
+    Chapter items: T8, U27, U28, U29, P50, P57, P64.
 
     Attributes
     ----------
@@ -45,6 +49,18 @@ class FourierBasis:
 
     def __repr__(self) -> str:
         return f"<FourierBasis: {self.k} of {self.n} eigenpairs>"
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the basis to a file (npz), as a whole or not at all; ``load_basis`` reads it.
+
+        The same basis gives the same bytes. Size: 8 n (k + 2) bytes.
+
+        Raises
+        ------
+        OSError
+            If the folder does not exist or cannot be written.
+        """
+        write_basis(path, self.eigenvalues, self.eigenvectors, self.residuals, self.mass)
 
     @property
     def n(self) -> int:
