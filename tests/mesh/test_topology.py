@@ -20,6 +20,7 @@ from strategies import any_arrays, closed_meshes, moebius
 
 DERIVED = (
     "boundary_edges",
+    "on_boundary",
     "non_manifold_edges",
     "referenced",
     "non_manifold_vertices",
@@ -217,6 +218,8 @@ def test_edges_by_a_dictionary(pair):
 
     assert topology.edges.tolist() == those(lambda runs: True)
     assert topology.boundary_edges.tolist() == those(lambda runs: len(runs) == 1)
+    ends = sorted({v for edge in those(lambda runs: len(runs) == 1) for v in edge})
+    assert np.flatnonzero(topology.on_boundary).tolist() == ends
     assert topology.non_manifold_edges.tolist() == those(lambda runs: len(runs) > 2)
     wrong = those(lambda runs: len(runs) == 2 and runs[0] == runs[1])
     assert sorted(topology.inconsistent_edges.tolist()) == wrong

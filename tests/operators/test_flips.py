@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators import flips
+from beltrami.operators.face_parts import face_numbers
 from meshes_of_the_errata import flipped
 
 
@@ -68,9 +69,7 @@ def test_rounding_is_measured_beside_the_terms():
 
 def _state(mesh):
     topology = mesh.topology
-    dots, double = np.empty((mesh.n_faces, 3)), np.empty(mesh.n_faces)
-    x = np.pad(mesh.vertices, ((0, 0), (0, 3 - mesh.dimension)))
-    flips.measure_faces(x, mesh.faces, dots, double)
+    dots, double, _ = face_numbers(mesh)
     tables = topology.faces.copy(), topology.twins.copy(), topology.face_edges.copy()
     return *tables, dots, double
 

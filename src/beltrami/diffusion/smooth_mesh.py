@@ -10,6 +10,7 @@ from beltrami._progress import Progress
 from beltrami.diffusion.heat import heat
 from beltrami.diffusion.smoothing import smooth
 from beltrami.errors import BeltramiError, check_name
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.laplacian import laplacian
 
@@ -80,6 +81,7 @@ def smooth_mesh(
     1.0
     """
     check_name("smoothing method", method, SMOOTHING_METHODS)
+    require_mesh(mesh, "smooth_mesh")
     foreign = {"time": time, "mass": mass} if method == "averaging" else {"step": step}
     for name, value in foreign.items():
         if value is not None:
@@ -87,7 +89,7 @@ def smooth_mesh(
     held = np.zeros(mesh.n_vertices, np.bool_)
     held[as_indices(hold, mesh.n_vertices, "held vertices")] = True
     if hold_boundary:
-        held[mesh.topology.boundary_edges.ravel()] = True
+        held |= mesh.topology.on_boundary
     if keep is not None:
         check_name("quantity to keep", keep, KEPT)
         if held.any():

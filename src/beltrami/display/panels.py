@@ -14,6 +14,7 @@ from beltrami.display.framing import fit_camera
 from beltrami.display.scene import Panel, check_mesh
 from beltrami.display.values import as_values, choose_limits, seen_values
 from beltrami.errors import DimensionError, EmptyMeshError, MeshError, check_name
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 
 Levels: TypeAlias = str | float | Sequence[float] | None
@@ -39,7 +40,8 @@ def paired(
     >>> len(meshes), captions
     (2, ['one', 'two'])
     """
-    meshes = [mesh] if isinstance(mesh, Mesh) else list(mesh)
+    given = list(mesh) if isinstance(mesh, list | tuple) else [mesh]
+    meshes = [require_mesh(each, "a picture") for each in given]
     if not meshes:
         raise EmptyMeshError("there is no mesh to draw")
     for each in meshes:

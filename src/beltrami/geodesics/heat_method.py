@@ -16,6 +16,7 @@ from beltrami._jit import kernel
 from beltrami.errors import BeltramiError, ConvergenceError, check_name
 from beltrami.geodesics.sources import checked_sources
 from beltrami.mesh.connectivity import component_labels
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.bounds import side_weights
 from beltrami.operators.intrinsic import IntrinsicTriangulation
@@ -86,6 +87,7 @@ class HeatMethod(Frozen):
         boundary: str = "neumann",
     ) -> None:
         check_name("boundary", boundary, BOUNDARIES)
+        require_mesh(mesh, "the heat method")
         pair = laplacian(mesh, _weights(mesh, intrinsic), "voronoi")
         triangles = pair.domain if isinstance(pair.domain, IntrinsicTriangulation) else mesh
         t = _mean_edge(triangles) ** 2 if time is None else _checked_time(time)
@@ -97,8 +99,8 @@ class HeatMethod(Frozen):
         free = np.ones(pair.n, np.bool_)
         free[np.unique(labels, return_index=True)[1]] = False  # L is singular: fix one value each
         step = csr_array(pair.mass + t * pair.stiffness)
-        inner = np.ones(pair.n, np.bool_)
-        inner[mesh.topology.boundary_edges.ravel()] = boundary == "neumann"
+        cold = boundary == "average"
+        inner = ~mesh.topology.on_boundary if cold else np.ones(pair.n, np.bool_)
         self.__dict__.update(
             mesh=mesh,
             time=t,

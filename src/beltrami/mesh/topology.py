@@ -9,19 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
-from beltrami._arrays import (
-    Booleans,
-    Integers,
-    read_only,
-    read_only_matrix,
-)
+from beltrami._arrays import Booleans, Integers, read_only, read_only_matrix
 from beltrami._frozen import Frozen
-from beltrami.errors import (
-    MeshError,
-    NotManifoldError,
-    NotOrientableError,
-    check_name,
-)
+from beltrami.errors import MeshError, NotOrientableError, check_name
 from beltrami.mesh.connectivity import (
     component_labels,
     faces_joined_by_edges,
@@ -31,6 +21,7 @@ from beltrami.mesh.faces import checked_faces
 from beltrami.mesh.fans import Fans, group_corners
 from beltrami.mesh.half_edges import HalfEdges, pair_sides
 from beltrami.mesh.loops import order_boundary
+from beltrami.mesh.requirements import require_manifold
 from beltrami.mesh.rings import adjacency_matrix, incident_faces, vertex_ring
 
 
@@ -120,6 +111,13 @@ class Topology(Frozen):
     def boundary_edges(self) -> Integers:
         """(b, 2) int: the edges with one face."""
         return read_only(self.edges[self.half_edges.edge_face_count == 1])
+
+    @cached_property
+    def on_boundary(self) -> Booleans:
+        """(n,) bool: whether the vertex is an end of an edge with one face."""
+        ends = np.zeros(self.n_vertices, np.bool_)
+        ends[self.boundary_edges.ravel()] = True
+        return read_only(ends)
 
     @cached_property
     def non_manifold_edges(self) -> Integers:
@@ -271,13 +269,7 @@ class Topology(Frozen):
 
         Raises NotManifoldError or NotOrientableError where it has no meaning.
         """
-        if not self.is_manifold:
-            raise NotManifoldError(
-                "the genus of a mesh that is not a manifold is not defined",
-                vertices=self.non_manifold_vertices,
-                edges=self.non_manifold_edges,
-                remedy="See repair(mesh, split_non_manifold=True).",
-            )
+        require_manifold(self, "the genus of a mesh that is not a manifold is not defined")
         if not self.is_orientable:
             raise NotOrientableError("the surface is not orientable, so it has no genus")
         loops = len(self.boundary_loops)

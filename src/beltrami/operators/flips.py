@@ -12,18 +12,8 @@ from typing import Any
 import numpy as np
 
 from beltrami._jit import kernel
-from beltrami.mesh.triangle import measure
 
 ROUNDING = 1e-13  # of a sum of cotangents, beside 1 and its terms: less does not count as negative
-
-
-@kernel
-def measure_faces(x: Any, corners: Any, dots: Any, double: Any) -> None:
-    """Fill the four numbers of each face: the dot products at its corners, twice its area."""
-    for f in range(corners.shape[0]):
-        dots[f, 0], dots[f, 1], dots[f, 2], double[f] = measure(
-            x, corners[f, 0], corners[f, 1], corners[f, 2]
-        )
 
 
 @kernel
