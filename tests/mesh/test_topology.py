@@ -477,3 +477,9 @@ def test_a_face_that_names_a_vertex_twice_changes_no_number():
     for extra in ([[0, 0, 4]], [[4, 4, 4], [5, 5, 5]]):
         topology = Topology(np.concatenate([TETRAHEDRON, extra]))
         assert (topology.euler_characteristic, topology.genus, topology.n_components) == (2, 0, 1)
+
+
+@pytest.mark.parametrize("wrong", ["a", 4.0, np.nan, [4], -1])
+def test_the_number_of_vertices_is_a_whole_number(wrong):
+    with pytest.raises(MeshError, match="the number of vertices"):
+        Topology(TETRAHEDRON, wrong)

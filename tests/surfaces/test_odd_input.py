@@ -163,3 +163,30 @@ def test_what_is_no_function_is_refused():
         ParametricSurface(3, SQUARE)
     with pytest.raises(SurfaceError, match="functions"):
         ParametricSurface(plane, SQUARE, jacobian=3)
+
+
+@pytest.mark.parametrize("thing", [None, 3, "cos", np.zeros(3)])
+def test_curves_and_functions_are_functions(thing):
+    surface = ParametricSurface(plane, SQUARE)
+    for refused in (
+        lambda: surface.trace(thing, [0.5]),
+        lambda: surface.curve_length(thing),
+        lambda: surface.pullback(thing),
+        lambda: surface.laplace_beltrami(thing),
+        lambda: ball_average_laplacian(surface, thing, 0.5, 0.5, 0.1),
+        lambda: ball_average_laplacian(surface, thing, 0.5, 0.5, 0.1, of="parameters"),
+    ):
+        with pytest.raises(SurfaceError, match="where a function is needed"):
+            refused()
+
+
+@pytest.mark.parametrize("thing", [3, "sphere", plane, np.zeros(3)])
+def test_surfaces_are_surfaces(thing):
+    surface = ParametricSurface(plane, SQUARE)
+    for refused in (
+        lambda: exponential_map(thing, 0.5, 0.5, 0.1, 0.1),
+        lambda: ball_average_laplacian(thing, lambda x, *_: x, 0.5, 0.5, 0.1),
+        lambda: surface.is_isometric(thing),
+    ):
+        with pytest.raises(SurfaceError, match="a ParametricSurface is needed"):
+            refused()

@@ -13,7 +13,7 @@ from scipy.sparse import csr_array
 from beltrami._arrays import Booleans, Floats, Integers
 from beltrami._frozen import Frozen
 from beltrami._jit import kernel
-from beltrami.errors import BeltramiError, ConvergenceError, check_name
+from beltrami.errors import BeltramiError, ConvergenceError, check_name, shown
 from beltrami.geodesics.sources import checked_sources
 from beltrami.mesh.connectivity import component_labels
 from beltrami.mesh.door import require_mesh
@@ -175,7 +175,7 @@ class HeatMethod(Frozen):
 def _checked_time(time: float) -> float:
     if isinstance(time, numbers.Real) and math.isfinite(time) and time > 0:
         return float(time)
-    raise BeltramiError(f"the time of the heat method must be positive, not {time!r}")
+    raise BeltramiError(f"the time of the heat method must be positive, not {shown(time)}")
 
 
 def _weights(mesh: Mesh, intrinsic: bool) -> str:

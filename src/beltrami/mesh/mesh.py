@@ -16,6 +16,7 @@ from beltrami.errors import (
     DimensionError,
     MeshError,
     NotClosedError,
+    shown,
 )
 from beltrami.mesh import geometry
 from beltrami.mesh.export import export
@@ -91,7 +92,7 @@ class Mesh(Frozen):
         self.__dict__.update(
             vertices=positions,
             topology=topology,
-            vertex_data=_checked_data(vertex_data or {}, len(positions)),
+            vertex_data=_checked_data({} if vertex_data is None else vertex_data, len(positions)),
             corner_uv=uv,
         )
 
@@ -277,6 +278,8 @@ class Mesh(Frozen):
 
 def _checked_data(data: Mapping[str, ArrayLike], n: int) -> Mapping[str, NDArray[Any]]:
     """Freeze the functions on the vertices; each has n rows and one or two axes."""
+    if not isinstance(data, Mapping):
+        raise MeshError(f"vertex_data maps names to arrays, and is not {shown(data)}")
     arrays = {name: frozen(values, np.asarray(values).dtype) for name, values in data.items()}
     for name, values in arrays.items():
         if values.ndim not in (1, 2) or len(values) != n:

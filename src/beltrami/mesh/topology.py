@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
-from beltrami._arrays import Booleans, Integers, read_only, read_only_matrix
+from beltrami._arrays import Booleans, Integers, read_only, read_only_matrix, whole
 from beltrami._frozen import Frozen
 from beltrami.errors import MeshError, NotOrientableError, check_name
 from beltrami.mesh.connectivity import (
@@ -141,9 +141,8 @@ class Topology(Frozen):
 
         The three readings of equation (3.2); see erratum E6.
         """
-        if s < 0:
-            raise MeshError(f"the radius of a ring cannot be {s}")
-        return vertex_ring(self.adjacency, self._checked(i), s, kind)
+        radius = whole("the radius of a ring", s, least=0)
+        return vertex_ring(self.adjacency, self._checked(i), radius, kind)
 
     def face_ring(self, i: int) -> Integers:
         """Faces around vertex i, ascending (definition 4 as it is meant, E7)."""
@@ -152,9 +151,10 @@ class Topology(Frozen):
         return np.asarray(around.indices[around.indptr[v] : around.indptr[v + 1]], dtype=np.int64)
 
     def _checked(self, i: int) -> int:
-        if not 0 <= i < self.n_vertices:
-            raise MeshError(f"there is no vertex {i}: they are 0..{self.n_vertices - 1}")
-        return int(i)
+        vertex = whole("a vertex", i, least=-(2**53))
+        if not 0 <= vertex < self.n_vertices:
+            raise MeshError(f"there is no vertex {vertex}: they are 0..{self.n_vertices - 1}")
+        return vertex
 
     @cached_property
     def referenced(self) -> Booleans:

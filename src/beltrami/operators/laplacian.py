@@ -8,7 +8,7 @@ import numpy as np
 from scipy.sparse import csr_array, issparse, triu
 
 from beltrami._arrays import Floats, read_only
-from beltrami.errors import DimensionError, MeshError, check_name
+from beltrami.errors import DimensionError, MeshError, check_name, shown
 from beltrami.mesh.door import require_mesh, topology_of
 from beltrami.mesh.edge_matrix import laplacian_matrix
 from beltrami.mesh.mesh import Mesh
@@ -163,7 +163,7 @@ def _of_graph(matrix: csr_array, weights: object, mass: str | None) -> Laplacian
     if abs(matrix - matrix.T).max() > 1e-12 * abs(matrix).max() or matrix.diagonal().any():
         raise MeshError("a matrix of weights is symmetric, with a zero diagonal")
     if weights is not None and not (isinstance(weights, str) and weights == "combinatorial"):
-        raise DimensionError(f"{weights!s:.40} weights need a Mesh: a graph brings its own weights")
+        raise DimensionError(f"{shown(weights)} weights need a Mesh: a graph has its own")
     upper = triu(matrix, 1).tocsr()
     upper.sum_duplicates()
     upper.eliminate_zeros()

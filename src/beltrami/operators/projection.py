@@ -8,6 +8,7 @@ from scipy.linalg import cho_factor, cho_solve
 
 from beltrami._arrays import Floats, as_function
 from beltrami.errors import DimensionError, SingularMatrixError
+from beltrami.operators.domain import require_laplacian
 from beltrami.operators.pair import Laplacian
 
 _DEPENDENT = 1e-13  # least eigenvalue of the products of functions of norm 1
@@ -54,6 +55,7 @@ def project(laplacian: Laplacian, f: ArrayLike, basis: ArrayLike) -> Floats:
     >>> round(abs(pair.inner(x**3 - nearest, x)), 9)
     0.0
     """
+    require_laplacian(laplacian, "a projection")
     values = as_function(f, laplacian.n)
     functions = as_function(basis, laplacian.n, "the basis").reshape(laplacian.n, -1)
     if not functions.shape[1]:

@@ -102,6 +102,8 @@ class Chart(Frozen):
 
         Chapter items: X1.
         """
+        if other is not None:
+            checks.require_surface(other)
         u, v = self.domain.samples(SAMPLES)
         mine = self.first_fundamental_form(u, v)
         wanted = np.eye(2) if other is None else other.first_fundamental_form(u, v)
@@ -129,6 +131,7 @@ class Chart(Frozen):
 
         Chapter items: P65.
         """
+        checks.require_callable(f, "f")
 
         def fbar(u: Any, v: Any) -> Any:
             if isinstance(u, Jet) or isinstance(v, Jet):
