@@ -197,6 +197,12 @@ def test_in_the_maze_it_walks_around_corners():
     assert mean_error(geodesic_distance(mesh, source), exact) < 0.05
 
 
+@pytest.mark.parametrize("intrinsic", [False, True])
+def test_a_time_beyond_the_numbers_is_refused(intrinsic):
+    with pytest.raises(BeltramiError, match="beyond the numbers of the machine"):
+        HeatMethod(MESHES["pl"](), time=1e308, intrinsic=intrinsic)
+
+
 def test_wrong_options():
     mesh = MESHES["pl"]()
     for time in (0, -1.0, np.nan, np.inf, "a", [1.0], np.ones(2), 1j):

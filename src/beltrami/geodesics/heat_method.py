@@ -91,6 +91,8 @@ class HeatMethod(Frozen):
         pair = laplacian(mesh, _weights(mesh, intrinsic), "voronoi")
         triangles = pair.domain if isinstance(pair.domain, IntrinsicTriangulation) else mesh
         t = _mean_edge(triangles) ** 2 if time is None else _checked_time(time)
+        if not math.isfinite(t * float(pair.stiffness.data.max())):
+            raise BeltramiError(f"a time of {t:.6g} is beyond the numbers of the machine")
         if isinstance(triangles, Mesh):
             halves, areas = side_weights(mesh, np.zeros(0), "cotangent"), mesh.face_areas
         else:

@@ -144,25 +144,26 @@ def intrinsic_delaunay(mesh: Mesh, *, cover: bool = False) -> IntrinsicTriangula
         p = 3 * mesh.n_faces
     before = float(double.sum())
     flips = int(flip_to_delaunay(faces, twins, sides, dots, double, p, _MOST * p))
-    if flips < 0:
+    if flips == -1:
         raise ConvergenceError(
             f"{_MOST * p} flips of {p} edges have not made the triangulation Delaunay"
         )
-    _require_area(double, before)
+    _require_area(double, before, flips == -2)
     tables = (read_only(faces), read_only(twins), read_only(sides))
     numbers = (read_only(dots), read_only(double))
     sheets = 2 if cover else 1
     return IntrinsicTriangulation(*tables, flips, mesh.n_vertices, *numbers, unit, sheets)
 
 
-def _require_area(double: Floats, before: float) -> None:
-    """Raise ConvergenceError if flips of needles have lost the area, which flips keep."""
+def _require_area(double: Floats, before: float, stuck: bool) -> None:
+    """Raise ConvergenceError if flips of needles stuck, or lost the area, which flips keep."""
     after = float(double.sum())
-    if not (double.min() > 0 and abs(after - before) <= _KEPT * before):
+    if stuck or not (double.min() > 0 and abs(after - before) <= _KEPT * before):
+        lost = f"twice the area went from {before:.6g} to {after:.6g}"
+        lost = "an edge stays as it is" if stuck else lost
         raise ConvergenceError(
-            f"faces are too thin to be flipped in floating point: twice the area went from "
-            f"{before:.6g} to {after:.6g}. Make the thinnest faces less thin, or use cotangents of "
-            "the faces as they are"
+            f"faces are too thin to be flipped in floating point: {lost}. Make the thinnest faces "
+            "less thin, or use cotangents of the faces as they are"
         )
 
 
