@@ -26,6 +26,7 @@ from beltrami.solvers.factorize import factorize
 
 BOUNDARIES = ("neumann", "average")
 _COLD = 1e-290  # less heat than this has lost its digits
+_LOST = 1e15  # times the mass: beside so much stiffness it is rounded away
 
 
 class HeatMethod(Frozen):
@@ -91,8 +92,8 @@ class HeatMethod(Frozen):
         pair = laplacian(mesh, _weights(mesh, intrinsic), "voronoi")
         triangles = pair.domain if isinstance(pair.domain, IntrinsicTriangulation) else mesh
         t = _mean_edge(triangles) ** 2 if time is None else _checked_time(time)
-        if not math.isfinite(t * float(pair.stiffness.data.max())):
-            raise BeltramiError(f"a time of {t:.6g} is beyond the numbers of the machine")
+        if not t * float(pair.stiffness.data.max()) < _LOST * float(pair.masses.max()):
+            raise BeltramiError(f"in a time of {t:.6g} all heat is spread evenly, as numbers go")
         if isinstance(triangles, Mesh):
             halves, areas = side_weights(mesh, np.zeros(0), "cotangent"), mesh.face_areas
         else:
