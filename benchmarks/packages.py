@@ -14,6 +14,7 @@ DISTRIBUTIONS = (
     "libigl",
     "meshio",
     "potpourri3d",
+    "pyamg",
     "pymeshlab",
     "pyvista",
     "robust_laplacian",

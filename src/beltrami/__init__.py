@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from beltrami.display.light import DirectionalLight as DirectionalLight
     from beltrami.display.light import SpotLight as SpotLight
     from beltrami.display.render import render as render
+    from beltrami.display.spectrum_plot import plot_spectrum as plot_spectrum
     from beltrami.geodesics.distance import geodesic_distance as geodesic_distance
     from beltrami.geodesics.heat_method import HeatMethod as HeatMethod
     from beltrami.grids.convolution import convolve as convolve
@@ -62,8 +63,11 @@ if TYPE_CHECKING:
     from beltrami.operators.point_cloud import PointCloud as PointCloud
     from beltrami.operators.projection import project as project
     from beltrami.operators.weights import edge_weights as edge_weights
+    from beltrami.solvers.conjugate_gradients import conjugate_gradients as conjugate_gradients
     from beltrami.solvers.factor import Factor as Factor
     from beltrami.solvers.factorize import factorize as factorize
+    from beltrami.solvers.iteration import IterativeSolution as IterativeSolution
+    from beltrami.solvers.minres import minres as minres
     from beltrami.spectrum.basis import FourierBasis as FourierBasis
     from beltrami.spectrum.fourier_basis import fourier_basis as fourier_basis
     from beltrami.surfaces.atlas import Atlas as Atlas
@@ -86,6 +90,7 @@ _HOME = {
     "Grid": "grids.grid",
     "HeatMethod": "geodesics.heat_method",
     "IntrinsicTriangulation": "operators.intrinsic",
+    "IterativeSolution": "solvers.iteration",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
     "ParametricSurface": "surfaces.surface",
@@ -97,6 +102,7 @@ _HOME = {
     "as_mesh": "mesh.convert",
     "ball_average_laplacian": "surfaces.ball_average",
     "colouring": "operators.colouring",
+    "conjugate_gradients": "solvers.conjugate_gradients",
     "convolve": "grids.convolution",
     "curvature": "operators.curvature",
     "dft": "grids.transform",
@@ -118,6 +124,8 @@ _HOME = {
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",
+    "minres": "solvers.minres",
+    "plot_spectrum": "display.spectrum_plot",
     "project": "operators.projection",
     "read_function": "io.function",
     "read_mesh": "io.registry",
