@@ -1,5 +1,7 @@
 """What a surface is given by mistake: refused by name, and never answered with a wrong number."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -190,3 +192,12 @@ def test_surfaces_are_surfaces(thing):
     ):
         with pytest.raises(SurfaceError, match="a ParametricSurface is needed"):
             refused()
+
+
+def test_maps_that_take_no_arrays_are_told_to_use_numpy():
+    for phi in (lambda u, v: (u, v, math.sin(u)), lambda u: (u, u, u), lambda u, v, w: (u, v, w)):
+        with pytest.raises(SurfaceError, match="φ cannot be called with 2 arrays") as caught:
+            ParametricSurface(phi, SQUARE)
+        assert isinstance(caught.value.__cause__, TypeError)
+    with pytest.raises(SurfaceError, match="the curve cannot be called"):
+        ParametricSurface(plane, SQUARE).trace(lambda t: (math.sin(t), t), [0.1, 0.2])

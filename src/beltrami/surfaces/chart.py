@@ -191,9 +191,9 @@ class Chart(Frozen):
         Raises
         ------
         SurfaceError
-            If periodic sides do not meet, or the cells are too few to close them.
-        DegenerateFaceError
-            If a face has no area: φ is constant along some line that is no side.
+            If periodic sides do not meet, or the cells are too few to close them; or if faces have
+            no area, as where φ is constant along some line that is no side: with the parameters
+            of a vertex of each.
         MeshError
             If nu or nv is not a whole number of 1 or more.
         """
