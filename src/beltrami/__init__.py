@@ -64,8 +64,13 @@ if TYPE_CHECKING:
     from beltrami.operators.weights import edge_weights as edge_weights
     from beltrami.solvers.factor import Factor as Factor
     from beltrami.solvers.factorize import factorize as factorize
+    from beltrami.spectrum import kernels as kernels
     from beltrami.spectrum.basis import FourierBasis as FourierBasis
+    from beltrami.spectrum.filtering import filter as filter  # noqa: A004
     from beltrami.spectrum.fourier_basis import fourier_basis as fourier_basis
+    from beltrami.spectrum.frames import Frame as Frame
+    from beltrami.spectrum.wavelets import mexican_hat_frame as mexican_hat_frame
+    from beltrami.spectrum.wavelets import meyer_frame as meyer_frame
     from beltrami.surfaces.atlas import Atlas as Atlas
     from beltrami.surfaces.ball_average import ball_average_laplacian as ball_average_laplacian
     from beltrami.surfaces.domain import Disk as Disk
@@ -83,6 +88,7 @@ _HOME = {
     "Disk": "surfaces.domain",
     "Factor": "solvers.factor",
     "FourierBasis": "spectrum.basis",
+    "Frame": "spectrum.frames",
     "Grid": "grids.grid",
     "HeatMethod": "geodesics.heat_method",
     "IntrinsicTriangulation": "operators.intrinsic",
@@ -109,6 +115,7 @@ _HOME = {
     "face_divergence": "operators.gradient",
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
+    "filter": "spectrum.filtering",
     "fourier_basis": "spectrum.fourier_basis",
     "geodesic_distance": "geodesics.distance",
     "heat": "diffusion.heat",
@@ -118,6 +125,8 @@ _HOME = {
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",
+    "mexican_hat_frame": "spectrum.wavelets",
+    "meyer_frame": "spectrum.wavelets",
     "project": "operators.projection",
     "read_function": "io.function",
     "read_mesh": "io.registry",
@@ -128,7 +137,7 @@ _HOME = {
     "vertex_areas": "operators.areas",
     "write_mesh": "io.registry",
 }
-_MODULES = {"errors": "errors", "shapes": "mesh.shapes"}
+_MODULES = {"errors": "errors", "kernels": "spectrum.kernels", "shapes": "mesh.shapes"}
 
 __all__ = sorted([*_HOME, *_MODULES])
 
