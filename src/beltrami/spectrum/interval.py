@@ -23,10 +23,11 @@ def spectral_interval(laplacian: Laplacian) -> Interval:
     r"""Return an interval that is proven to contain every eigenvalue of (L, B).
 
     The upper end is the smaller of two bounds: that of the faces, ``laplacian.spectral_bound()``,
-    and for diagonal masses that of the disks of Gershgorin,
-    :math:`\max_i (L_{ii} + \sum_{j \ne i} |L_{ij}|) / b_i`, which is within a factor of 2 of the
-    largest eigenvalue if no weight is negative, as it is at least :math:`\max_i L_{ii} / b_i`. The
-    lower end is 0 where L is known to be positive semi-definite.
+    and that of the disks of Gershgorin, :math:`\max_i (L_{ii} + \sum_{j \ne i} |L_{ij}|) / b_i`,
+    which is within a factor of 2 of the largest eigenvalue if no weight is negative, as that is at
+    least :math:`\max_i L_{ii} / b_i`. The consistent mass is at least a quarter of its row sums, in
+    each face, so 4 times their disks bound its pair. The lower end is 0 where L is known to be
+    positive semi-definite.
 
     Chapter items: T9.
 
@@ -54,12 +55,12 @@ def spectral_interval(laplacian: Laplacian) -> Interval:
             remedy='Use another mass, mass="unit" for one.',
         )
     low, high = 0.0, laplacian.spectral_bound()
-    if laplacian.mass_kind != "consistent":
-        centre = laplacian.stiffness.diagonal()
-        radius = abs(laplacian.stiffness) @ np.ones(laplacian.n) - np.abs(centre)
-        high = min(high, float(((centre + radius) / masses).max()))
-        if not laplacian.properties.positive_semidefinite:
-            low = min(0.0, float(((centre - radius) / masses).min()))
+    part = 0.25 if laplacian.mass_kind == "consistent" else 1.0
+    centre = laplacian.stiffness.diagonal()
+    radius = abs(laplacian.stiffness) @ np.ones(laplacian.n) - np.abs(centre)
+    high = min(high, float(((centre + radius) / masses).max()) / part)
+    if not laplacian.properties.positive_semidefinite:
+        low = min(0.0, float(((centre - radius) / masses).min()) / part)
     if not math.isfinite(high):
         raise MeshError(
             f"no bound is known for the eigenvalues of {laplacian.weight_kind} weights with the "

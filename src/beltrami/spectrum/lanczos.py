@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from beltrami._arrays import Floats
 from beltrami._progress import Progress
 from beltrami.errors import ConvergenceError
 from beltrami.operators.pair import Laplacian
-from beltrami.solvers.factorize import factorize
 from beltrami.spectrum.interval import Interval
 from beltrami.spectrum.kernel import Response
+from beltrami.spectrum.operator import Operator, as_operator
 from beltrami.spectrum.ritz import Watch, ritz_pairs
 
 _MOST = 500  # vectors, if the caller does not say
@@ -66,7 +64,7 @@ def lanczos_filter(
     >>> lanczos_filter(pair, f, lambda x: x**2, Interval(0.0, 1.5)).round(9).ravel().tolist()
     [1.5, -0.75, -0.75]
     """
-    apply = _operator(laplacian)
+    apply = as_operator(laplacian)
     result = np.empty_like(f)
     columns = f.shape[1]
     for c in range(columns):
@@ -77,20 +75,11 @@ def lanczos_filter(
     return result
 
 
-def _operator(laplacian: Laplacian) -> Callable[[Floats], Floats]:
-    """Return B⁻¹L as a function; the consistent mass is factorised once."""
-    stiffness, masses = laplacian.stiffness, laplacian.masses
-    if laplacian.mass_kind == "consistent":
-        factor = factorize(laplacian.mass)
-        return lambda x: factor.solve(stiffness @ x)
-    return lambda x: (stiffness @ x) / masses
-
-
 class _Space:
     """The Krylov space of one function, which grows vector by vector."""
 
     def __init__(
-        self, laplacian: Laplacian, f: Floats, apply: Callable[[Floats], Floats], interval: Interval
+        self, laplacian: Laplacian, f: Floats, apply: Operator, interval: Interval
     ) -> None:
         self.apply = apply
         self.mass = laplacian.mass

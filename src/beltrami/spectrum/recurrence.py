@@ -11,10 +11,10 @@ from beltrami._arrays import Floats
 from beltrami._jit import kernel
 from beltrami._progress import Progress, stages
 from beltrami.operators.pair import Laplacian
-from beltrami.solvers.factorize import factorize
 from beltrami.solvers.locality import LocalRows, local_rows
 from beltrami.spectrum.chebyshev import ChebyshevSeries
 from beltrami.spectrum.interval import Interval
+from beltrami.spectrum.operator import as_operator
 
 _ORDERS_A_CALL = 20  # between two looks at the progress, and at ctrl-C
 
@@ -124,12 +124,12 @@ def _by_solves(
 ) -> Floats:
     """Run the recurrence with a solve for the mass in each order."""
     u, v = _factors(interval)
-    mass = factorize(laplacian.mass)
+    apply = as_operator(laplacian)
     sums = table[0][:, None, None] * f
-    older, newer = f, u / 2 * mass.solve(laplacian.stiffness @ f) - v / 2 * f
+    older, newer = f, u / 2 * apply(f) - v / 2 * f
     sums += table[1][:, None, None] * newer
     for k, _ in enumerate(stages(len(table) - 2, progress), start=2):
-        following = u * mass.solve(laplacian.stiffness @ newer) - v * newer - older
+        following = u * apply(newer) - v * newer - older
         older, newer = newer, following
         sums += table[k][:, None, None] * newer
     return np.asarray(sums)
