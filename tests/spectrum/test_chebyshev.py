@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from beltrami.errors import ConvergenceError, NonFiniteError
+from beltrami.errors import ApproximationError, NonFiniteError
 from beltrami.spectrum.chebyshev import chebyshev_series
 from beltrami.spectrum.interval import Interval
 from beltrami.spectrum.kernels import (
@@ -66,7 +66,7 @@ def test_heat_that_only_the_smallest_eigenvalues_see(time):
     """At 512 nodes it is 0 wherever it is looked at: not so at 0 itself."""
     try:
         series = chebyshev_series(Heat(time), ONE)
-    except ConvergenceError:
+    except ApproximationError:
         assert time > 1e6
         return
     assert series(0.0) == pytest.approx(1, abs=1e-8)
@@ -87,7 +87,7 @@ def test_a_bump_between_the_nodes():
     "kernel", [LowPass(4.0), 0.5 * HighPass(4.0) + Heat(1.0), BandPass(0.0, 4)]
 )
 def test_jumps_are_refused_and_named(kernel):
-    with pytest.raises(ConvergenceError, match=r"jumps at λ = [04].*method="):
+    with pytest.raises(ApproximationError, match=r"jumps at λ = [04]"):
         chebyshev_series(kernel, ONE, 0.2)
 
 
@@ -97,12 +97,12 @@ def test_a_jump_beyond_the_spectrum_is_none():
 
 
 def test_a_jump_that_nothing_tells_of_is_found():
-    with pytest.raises(ConvergenceError, match=r"error of about 0\.[2-9]"):
+    with pytest.raises(ApproximationError, match=r"error of about 0\.[2-9]"):
         chebyshev_series(lambda x: x > 4, ONE)
 
 
 def test_a_kink_does_not_converge_in_silence():
-    with pytest.raises(ConvergenceError, match="order of 32768"):
+    with pytest.raises(ApproximationError, match="order up to 32768"):
         chebyshev_series(lambda x: np.abs(x - 4.0), ONE, 1e-10)
     assert chebyshev_series(lambda x: np.abs(x - 4.0), ONE, 1e-2).error < 1e-1
 
@@ -119,7 +119,7 @@ def test_with_an_order_of_ones_own_the_error_is_told():
 
 def test_rounding_is_part_of_the_error():
     """The matrix is known to 1e-16 of its norm: with a slope of 1e7 there is no error of 1e-10."""
-    with pytest.raises(ConvergenceError):
+    with pytest.raises(ApproximationError):
         chebyshev_series(Heat(1e6), ONE, 1e-11)
 
 

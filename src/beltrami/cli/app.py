@@ -8,6 +8,7 @@ import typer
 
 from beltrami.cli.curvature import curvature
 from beltrami.cli.endings import ending_well
+from beltrami.cli.filter import filter as filter_verb
 from beltrami.cli.geodesics import geodesics
 from beltrami.cli.heat import heat
 from beltrami.cli.info import info
@@ -25,7 +26,18 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for verb in (info, repair, smooth, heat, curvature, geodesics, integrate, render, tour):
+for verb in (
+    info,
+    repair,
+    smooth,
+    heat,
+    filter_verb,
+    curvature,
+    geodesics,
+    integrate,
+    render,
+    tour,
+):
     app.command()(ending_well(verb))
 
 

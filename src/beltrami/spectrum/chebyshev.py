@@ -9,7 +9,7 @@ from numpy.polynomial.chebyshev import chebval
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, read_only
-from beltrami.errors import ConvergenceError
+from beltrami.errors import ApproximationError
 from beltrami.spectrum.interval import Interval, probes
 from beltrami.spectrum.kernel import Kernel, Response, evaluate
 
@@ -79,8 +79,9 @@ def chebyshev_series(
 
     Raises
     ------
-    ConvergenceError
-        If no order up to 32768 reaches the tolerance, or rounding does not let it, or h jumps.
+    ApproximationError
+        If no order up to 32768 reaches the tolerance, or rounding does not let it, or h jumps;
+        ``error.estimate`` is what was reached.
     DimensionError, NonFiniteError, BeltramiError
         If h is not a function with finite real values.
 
@@ -102,8 +103,8 @@ def chebyshev_series(
         return ChebyshevSeries(value.copy(), interval, abs(float(value[0])), 0.0)
     jumps = [jump for jump in h.jumps if low <= jump < high] if isinstance(h, Kernel) else []
     if jumps and order is None:
-        raise ConvergenceError(
-            f"h jumps at λ = {jumps[0]:g}, and no polynomial comes near a jump: {_REMEDY}"
+        raise ApproximationError(
+            f"h jumps at λ = {jumps[0]:g}, and no polynomial comes near a jump", 0.5, REMEDY
         )
     places = probes(interval)
     truth = evaluate(h, places)
@@ -113,16 +114,19 @@ def chebyshev_series(
         if order is not None or series.error <= tolerance * series.size:
             return series
         if nodes >= _MOST:
-            raise ConvergenceError(
-                f"an order of {nodes // 2} leaves an error of about {series.error:.1g} beside "
-                f"{series.size:.1g}, where {tolerance:.1g} is wanted: {_REMEDY}"
+            reached = series.error / series.size
+            raise ApproximationError(
+                f"polynomials of an order up to {nodes // 2} leave an error of about {reached:.1g} "
+                f"beside the largest |h|, and {tolerance:.1g} is wanted",
+                reached,
+                REMEDY,
             )
         nodes *= 2
 
 
-_REMEDY = (
-    "give a larger tolerance, a smoother kernel (a width), an order of your own (then nothing is "
-    'promised), or method="exact" or "lanczos"'
+REMEDY = (
+    'Use method="exact", or "lanczos", a smoother kernel (with a width) or a larger tolerance; or '
+    "give the order, and nothing is promised."
 )
 
 

@@ -71,7 +71,7 @@ def filter(  # noqa: A001
 
     Raises
     ------
-    ConvergenceError
+    ApproximationError
         If the tolerance is not reached: where h jumps no polynomial comes near, and says so.
     MeshError
         If no bound on the spectrum is known, or a mass is not positive; if the mesh is too large

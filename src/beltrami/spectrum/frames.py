@@ -109,7 +109,7 @@ class Frame:
 
         Raises
         ------
-        DimensionError, NonFiniteError, BeltramiError, ConvergenceError
+        DimensionError, NonFiniteError, BeltramiError, ApproximationError
             As ``analyze``; also if the frame loses a frequency (A = 0).
         """
         given = rectangular(parts)

@@ -6,7 +6,7 @@ import numpy as np
 
 from beltrami._arrays import Floats
 from beltrami._progress import Progress
-from beltrami.errors import ConvergenceError
+from beltrami.errors import ApproximationError
 from beltrami.operators.pair import Laplacian
 from beltrami.spectrum.interval import Interval
 from beltrami.spectrum.kernel import Response
@@ -44,8 +44,8 @@ def lanczos_filter(
 
     Raises
     ------
-    ConvergenceError
-        If 500 vectors do not do.
+    ApproximationError
+        If 500 vectors do not do; ``error.estimate`` is what was reached.
 
     Notes
     -----
@@ -115,11 +115,12 @@ class _Space:
                 if error <= tolerance:
                     break
         if error > tolerance:
-            raise ConvergenceError(
+            raise ApproximationError(
                 f"{most} vectors of Lanczos leave an error of about {error:.1g} beside the largest "
-                f"|h|, where {tolerance:.1g} is wanted: give a larger tolerance, a smoother kernel "
-                "(a width), an order of your own (then nothing is promised), or "
-                'method="chebyshev" or "exact"'
+                f"|h|, and {tolerance:.1g} is wanted",
+                error,
+                'Use method="chebyshev", or "exact", a smoother kernel (with a width) or a larger '
+                "tolerance; or give the order, and nothing is promised.",
             )
         coordinates = watch.coordinates(*ritz_pairs(self.alpha, self.beta[:-1]))
         return np.asarray(self.norm * (coordinates @ self.vectors[: len(coordinates)]))
