@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from beltrami.display.light import DirectionalLight as DirectionalLight
     from beltrami.display.light import SpotLight as SpotLight
     from beltrami.display.render import render as render
+    from beltrami.display.spectrum_plot import plot_spectrum as plot_spectrum
     from beltrami.geodesics.distance import geodesic_distance as geodesic_distance
     from beltrami.geodesics.heat_method import HeatMethod as HeatMethod
     from beltrami.grids.convolution import convolve as convolve
@@ -127,6 +128,7 @@ _HOME = {
     "laplacian": "operators.laplacian",
     "mexican_hat_frame": "spectrum.wavelets",
     "meyer_frame": "spectrum.wavelets",
+    "plot_spectrum": "display.spectrum_plot",
     "project": "operators.projection",
     "read_function": "io.function",
     "read_mesh": "io.registry",
