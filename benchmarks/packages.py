@@ -14,6 +14,7 @@ DISTRIBUTIONS = (
     "libigl",
     "meshio",
     "potpourri3d",
+    "pygsp",
     "pymeshlab",
     "pyvista",
     "robust_laplacian",

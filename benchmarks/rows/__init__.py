@@ -6,6 +6,7 @@ from benchmarks.claims import Row
 from benchmarks.rows.adjacency import ADJACENCY
 from benchmarks.rows.assembly import ASSEMBLY
 from benchmarks.rows.factorizing import FACTORIZE, FACTORIZE_LARGE, SOLVE_3, SOLVE_64
+from benchmarks.rows.filtering import FILTERING
 from benchmarks.rows.geodesics import GEODESICS, GEODESICS_PREPARED
 from benchmarks.rows.intrinsic import INTRINSIC
 from benchmarks.rows.reading import READ_OBJ, READ_OFF, READ_PLY
@@ -18,6 +19,7 @@ ROWS: tuple[Row, ...] = (
     GEODESICS,
     GEODESICS_PREPARED,
     SMOOTHING,
+    FILTERING,
     ADJACENCY,
     FACTORIZE,
     FACTORIZE_LARGE,

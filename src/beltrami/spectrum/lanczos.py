@@ -49,7 +49,8 @@ def lanczos_filter(
 
     Notes
     -----
-    Each vector is made orthogonal to all earlier ones, twice, so that rounding brings no ghosts.
+    Each vector is made orthogonal to all earlier ones, again where much was cancelled, so that
+    rounding brings no ghosts.
     Cost for N vectors: N products with L, O(n N²) operations, O(n N) memory. Sources: Saad,
     *Analysis of some Krylov subspace approximations to the matrix exponential operator* (1992);
     for the Ritz value put somewhere, the rules of Gauss-Radau in Golub and Meurant, *Matrices,
@@ -134,9 +135,14 @@ class _Space:
         known = self.vectors[: size + 1]
         w = self.apply(self.next)
         self.alpha.append(float(np.vdot(self.mass @ self.next, w)))
-        for _ in range(2):
-            w = w - (known @ (self.mass @ w)) @ known
-        length = self._norm(w)
+        w -= self.alpha[-1] * self.next
+        if size:
+            w -= self.beta[-1] * self.vectors[size - 1]
+        before, length = np.inf, self._norm(w)
+        while length < 0.7 * before and length > self.closed:  # cancelled: once more
+            before = length
+            w -= (known @ (self.mass @ w)) @ known
+            length = self._norm(w)
         self.beta.append(length if length > self.closed else 0.0)
         if self.beta[-1]:
             self.next = w / length
