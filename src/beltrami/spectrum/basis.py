@@ -21,7 +21,7 @@ class FourierBasis:
     eigenvectors u of the normalised Laplacian, and the transform is the :math:`U^T D^{1/2} f` of
     the chapter (E72).
 
-    Chapter items: D19.
+    Chapter items: D19, P57.
 
     Attributes
     ----------
