@@ -11,6 +11,7 @@ from scipy.sparse import csr_array
 from beltrami._arrays import Floats, as_function, read_only, read_only_matrix
 from beltrami.errors import BeltramiError, DimensionError, NonFiniteError
 from beltrami.spectrum.kernel import Response, evaluate
+from beltrami.spectrum.whole import whole
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -130,9 +131,7 @@ class FourierBasis:
         BeltramiError
             If m is not a whole number from 0 to k.
         """
-        if m != int(m) or not 0 <= m <= self.k:
-            raise BeltramiError(f"the number of terms must be whole, from 0 to {self.k}, not {m}")
-        kept = self.eigenvectors[:, : int(m)]
+        kept = self.eigenvectors[:, : whole("the number of terms", m, 0, self.k)]
         return np.asarray(kept @ (kept.T @ (self.mass @ as_function(f, self.n))))
 
     def error_decay(self, f: ArrayLike) -> Floats:

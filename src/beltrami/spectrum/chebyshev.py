@@ -13,7 +13,7 @@ from beltrami.errors import ApproximationError
 from beltrami.spectrum.interval import Interval, probes
 from beltrami.spectrum.kernel import Kernel, Response, evaluate
 
-_FEWEST, _MOST = 512, 2**16  # nodes; orders go up to half of the most
+_FEWEST, _MOST = 2048, 2**16  # nodes; orders go up to half of the most
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -60,7 +60,7 @@ def chebyshev_series(
 ) -> ChebyshevSeries:
     r"""Expand a kernel in Chebyshev polynomials, to the order that a wanted error needs.
 
-    The coefficients are those of the interpolant at 512, 1024 ... nodes, by a cosine transform,
+    The coefficients are those of the interpolant at 2048, 4096 ... nodes, by a cosine transform,
     until their tail is small and the series agrees with h at points between, which come near both
     ends of the interval. The order is the least whose tail of coefficients,
     :math:`\sum_{k > N} |c_k| \ge \max|p_N - p|`, is below half the tolerance. Analytic kernels need

@@ -9,6 +9,7 @@ from beltrami._arrays import Floats, as_function, rectangular
 from beltrami.errors import BeltramiError
 from beltrami.operators.pair import Laplacian
 from beltrami.spectrum.operator import as_operator
+from beltrami.spectrum.whole import whole
 
 
 def decay_bound(laplacian: Laplacian, f: ArrayLike, eigenvalues: ArrayLike, power: int) -> Floats:
@@ -52,14 +53,13 @@ def decay_bound(laplacian: Laplacian, f: ArrayLike, eigenvalues: ArrayLike, powe
     """
     values = as_function(f, laplacian.n)
     x = rectangular(eigenvalues).astype(np.float64)
-    if power != int(power) or not 0 <= power <= 20:
-        raise BeltramiError(f"the power must be a whole number from 0 to 20, not {power}")
+    count = whole("the power", power, 0, 20)
     if x.ndim != 1 or not (np.isfinite(x) & (x >= 0)).all():
         raise BeltramiError("eigenvalues are finite numbers >= 0, in one row")
     apply = as_operator(laplacian)
-    for _ in range(int(power)):
+    for _ in range(count):
         values = apply(values)
     norms = np.sqrt((values * (laplacian.mass @ values)).sum(axis=0))
     with np.errstate(divide="ignore"):
-        factors = x ** -float(power)
+        factors = x ** -float(count)
     return np.multiply.outer(factors, norms)

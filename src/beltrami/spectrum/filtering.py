@@ -17,6 +17,7 @@ from beltrami.spectrum.interval import spectral_interval
 from beltrami.spectrum.kernel import Response
 from beltrami.spectrum.lanczos import lanczos_filter
 from beltrami.spectrum.recurrence import chebyshev_sums
+from beltrami.spectrum.whole import whole
 
 FILTER_METHODS = ("chebyshev", "exact", "lanczos")
 _LARGEST_DENSE = 4000  # vertices: 130 MB for each of three matrices, and minutes
@@ -101,13 +102,13 @@ def filter(  # noqa: A001
     values = as_function(f, laplacian.n)
     if not (tolerance > 0 and math.isfinite(tolerance)):
         raise BeltramiError(f"tolerance must be finite and > 0, not {tolerance}")
-    if order is not None and (order != int(order) or not 1 <= order <= 10**6):
-        raise BeltramiError(f"order must be a whole number from 1 to a million, not {order}")
+    count = None if order is None else whole("order", order, 1, 10**6)
     if basis is not None and method != "exact":
         raise BeltramiError('a basis serves method="exact": the other methods need none')
     if method == "exact":
+        if count is not None:
+            raise BeltramiError("an exact filter has no order")
         return _complete_basis(laplacian, basis).filter(values, h)
-    count = None if order is None else int(order)
     interval = spectral_interval(laplacian)
     columns = values.reshape(laplacian.n, -1)
     if method == "chebyshev":

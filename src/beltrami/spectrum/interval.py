@@ -77,11 +77,11 @@ def probes(interval: Interval) -> Floats:
     --------
     >>> places = probes(Interval(0.0, 1.0))
     >>> len(places), float(places.min()), float(places[places > 0].min()), float(places.max())
-    (532, 0.0, 1.0842021724855044e-19, 1.0)
+    (1627, 0.0, 1.0842021724855044e-19, 1.0)
     """
     part = np.concatenate([[0.0, 1.0], _NEAR, 1 - _NEAR[:-1], _INSIDE])
     return interval.low + (interval.high - interval.low) * part
 
 
 _NEAR = 2.0 ** -np.arange(1, 64)
-_INSIDE = (np.arange(405) + 0.5) * 0.6180339887498949 % 1  # without a period
+_INSIDE = (np.arange(1500) + 0.5) * 0.6180339887498949 % 1  # without a period

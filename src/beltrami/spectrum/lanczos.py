@@ -30,10 +30,11 @@ def lanczos_filter(
     r"""Return :math:`h(B^{-1}L) f \approx \|f\|_B V h(T) e_1`, column by column of (n, c).
 
     V is the B-orthonormal basis of f, B⁻¹Lf, (B⁻¹L)²f ..., T the tridiagonal matrix of the
-    operator in it. The space grows until neither its last fifth changed the result, nor would one
-    more Ritz value, put where it does the most: at an end of the interval, at a jump of h, and
-    where h is farthest from what the Ritz values show of it. That is an estimate, no bound. The
-    space closes early, and nothing is left out, for a function made of q eigenspaces after q steps.
+    operator in it. The space grows until neither its last quarter changed the result, nor would one
+    more Ritz value, put where it does the most: at an end of the interval, at a jump of h, and in
+    the six gaps where h is farthest from what the Ritz values show of it. That is an estimate, no
+    bound. The space closes early, and nothing is left out, for a function made of q eigenspaces
+    after q steps. Where h jumps at an eigenvalue, rounding decides.
 
     Parameters
     ----------
@@ -111,7 +112,7 @@ class _Space:
                 error = 0.0
                 break
             if order is None and (size >= look or size == most):
-                look = size + max(4, size // 4)
+                look = size + max(4, size // 3)
                 error = watch.error(self.alpha, self.beta)
                 if error <= tolerance:
                     break

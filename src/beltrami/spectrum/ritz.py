@@ -11,6 +11,8 @@ from beltrami._arrays import Floats
 from beltrami.spectrum.interval import Interval, probes
 from beltrami.spectrum.kernel import Kernel, Response, evaluate
 
+_PLACES = 6  # where one more Ritz value is tried, besides the ends and the jumps
+
 
 def ritz_pairs(alpha: Sequence[float], beta: Sequence[float]) -> tuple[Floats, Floats]:
     """Return the eigenvalues, and the eigenvectors in columns, of a tridiagonal matrix.
@@ -49,24 +51,31 @@ class Watch:
     def error(self, alpha: Sequence[float], beta: Sequence[float]) -> float:
         """Estimate the error beside the largest |h|, from T and the β that leads out of it.
 
-        The largest of the changes since the last call, and by one more Ritz value at any of the
-        places that matter.
+        The sum of the changes since the last call, and by one more Ritz value at any of the places
+        that matter.
         """
         ritz, modes = ritz_pairs(alpha, beta[:-1])
         newer = self.coordinates(ritz, modes)
         changes = [_distance(newer, self.older)]
         self.older = newer
-        inside = np.clip(ritz, *self.interval)
-        seen = np.interp(self.probes, inside, evaluate(self.h, inside))
-        worst = self.probes[np.abs(self.truth - seen).argmax()]
-        for place in (*self.ends, float(worst)):
+        for place in (*self.ends, *self._unseen(ritz)):
             gaps = ritz - place
             if np.abs(gaps).min() <= 1e-13 * np.abs(ritz).max():
                 continue  # there is a Ritz value already
             last = place + beta[-1] ** 2 * float((modes[-1] ** 2 / gaps).sum())
             more = ritz_pairs([*alpha, last], beta)
             changes.append(_distance(self.coordinates(*more), newer))
-        return max(changes) / self.size
+        return sum(changes) / self.size
+
+    def _unseen(self, ritz: Floats) -> Floats:
+        """Return where h is farthest from what the Ritz values show: the worst of a few gaps."""
+        inside = np.clip(ritz, *self.interval)
+        seen = np.interp(self.probes, inside, evaluate(self.h, inside))
+        missed = np.abs(self.truth - seen)
+        gaps = np.searchsorted(inside, self.probes)
+        order = np.lexsort((-missed, gaps))
+        first = order[np.diff(gaps[order], prepend=-1) > 0]  # the worst of each gap
+        return np.asarray(self.probes[first[np.argsort(-missed[first])[:_PLACES]]])
 
 
 def _distance(one: Floats, other: Floats) -> float:

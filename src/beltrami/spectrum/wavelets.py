@@ -12,6 +12,7 @@ from beltrami.errors import BeltramiError
 from beltrami.spectrum.frames import Frame
 from beltrami.spectrum.kernel import Kernel
 from beltrami.spectrum.kernels import smooth_step
+from beltrami.spectrum.whole import whole
 
 
 @dataclass(frozen=True)
@@ -95,7 +96,7 @@ def meyer_frame(bound: float, scales: int = 4) -> Frame:
     >>> frame.kernels[0], [round(x, 12) for x in frame.bounds]
     (MeyerBand(low=0.0, high=1.0), [1.0, 1.0])
     """
-    _require(scales)
+    whole("scales", scales, 1, 60)
     ends = [0.0, *(bound * 2.0**-j for j in range(scales, 0, -1)), np.inf]
     return Frame(tuple(MeyerBand(a, b) for a, b in pairwise(ends)), bound)
 
@@ -124,11 +125,6 @@ def mexican_hat_frame(bound: float, scales: int = 5) -> Frame:
     >>> round(A, 2), round(B, 2)
     (1.0, 2.6)
     """
-    _require(scales)
+    whole("scales", scales, 1, 60)
     peaks = [bound * 2.0**-j for j in range(scales - 1, -1, -1)]
     return Frame((Plateau(peaks[0]), *(MexicanHat(p) for p in peaks)), bound)
-
-
-def _require(scales: int) -> None:
-    if scales != int(scales) or not 1 <= scales <= 60:
-        raise BeltramiError(f"scales must be a whole number from 1 to 60, not {scales}")
