@@ -14,6 +14,7 @@ DISTRIBUTIONS = (
     "libigl",
     "meshio",
     "potpourri3d",
+    "pyamg",
     "pygsp",
     "pymeshlab",
     "pyvista",

@@ -9,6 +9,7 @@ from benchmarks.rows.factorizing import FACTORIZE, FACTORIZE_LARGE, SOLVE_3, SOL
 from benchmarks.rows.filtering import FILTERING
 from benchmarks.rows.geodesics import GEODESICS, GEODESICS_PREPARED
 from benchmarks.rows.intrinsic import INTRINSIC
+from benchmarks.rows.iterating import CONJUGATE_GRADIENTS
 from benchmarks.rows.reading import READ_OBJ, READ_OFF, READ_PLY
 from benchmarks.rows.smoothing import SMOOTHING
 from benchmarks.rows.starting import FIRST_CALL, IMPORT
@@ -25,6 +26,7 @@ ROWS: tuple[Row, ...] = (
     FACTORIZE_LARGE,
     SOLVE_3,
     SOLVE_64,
+    CONJUGATE_GRADIENTS,
     READ_OBJ,
     READ_OFF,
     READ_PLY,

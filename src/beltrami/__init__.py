@@ -63,8 +63,11 @@ if TYPE_CHECKING:
     from beltrami.operators.point_cloud import PointCloud as PointCloud
     from beltrami.operators.projection import project as project
     from beltrami.operators.weights import edge_weights as edge_weights
+    from beltrami.solvers.conjugate_gradients import conjugate_gradients as conjugate_gradients
     from beltrami.solvers.factor import Factor as Factor
     from beltrami.solvers.factorize import factorize as factorize
+    from beltrami.solvers.iteration import IterativeSolution as IterativeSolution
+    from beltrami.solvers.minres import minres as minres
     from beltrami.spectrum import kernels as kernels
     from beltrami.spectrum.basis import FourierBasis as FourierBasis
     from beltrami.spectrum.filtering import filter as filter  # noqa: A004
@@ -93,6 +96,7 @@ _HOME = {
     "Grid": "grids.grid",
     "HeatMethod": "geodesics.heat_method",
     "IntrinsicTriangulation": "operators.intrinsic",
+    "IterativeSolution": "solvers.iteration",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
     "ParametricSurface": "surfaces.surface",
@@ -104,6 +108,7 @@ _HOME = {
     "as_mesh": "mesh.convert",
     "ball_average_laplacian": "surfaces.ball_average",
     "colouring": "operators.colouring",
+    "conjugate_gradients": "solvers.conjugate_gradients",
     "convolve": "grids.convolution",
     "curvature": "operators.curvature",
     "dft": "grids.transform",
@@ -128,6 +133,7 @@ _HOME = {
     "laplacian": "operators.laplacian",
     "mexican_hat_frame": "spectrum.wavelets",
     "meyer_frame": "spectrum.wavelets",
+    "minres": "solvers.minres",
     "plot_spectrum": "display.spectrum_plot",
     "project": "operators.projection",
     "read_function": "io.function",

@@ -177,18 +177,25 @@ class SingularMatrixError(BeltramiError, ValueError):
 
 
 class NotPositiveDefiniteError(BeltramiError, ValueError):
-    """A matrix is not symmetric positive definite; ``rows`` show it."""
+    """A matrix is not symmetric positive definite; ``rows`` show it, where they are known."""
 
-    def __init__(self, rows: ArrayLike) -> None:
+    def __init__(
+        self,
+        rows: ArrayLike = (),
+        problem: str = "the matrix is not symmetric positive definite",
+        remedy: str = 'factorize(A, backend="superlu") takes every invertible matrix',
+    ) -> None:
         self.rows = np.asarray(rows, dtype=np.int64).reshape(-1)
-        super().__init__(
-            f"the matrix is not symmetric positive definite ({_named('rows', self.rows)}). "
-            'factorize(A, backend="superlu") takes every invertible matrix'
-        )
+        shown = f" ({_named('rows', self.rows)})" if len(self.rows) else ""
+        super().__init__(f"{problem}{shown}. {remedy}")
 
 
 class ConvergenceError(BeltramiError, RuntimeError):
-    """An iteration stopped before it reached its tolerance."""
+    """An iteration stopped before it reached its tolerance; ``residuals`` is its history."""
+
+    def __init__(self, problem: str, residuals: ArrayLike = ()) -> None:
+        self.residuals = np.asarray(residuals, dtype=np.float64)
+        super().__init__(problem)
 
 
 class ApproximationError(ConvergenceError):
