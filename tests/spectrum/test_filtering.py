@@ -169,6 +169,34 @@ def test_heat_that_the_first_ritz_values_do_not_see():
     assert abs(pair.mean(f)) > 1e-3
 
 
+def _at_the_low_end(x):
+    """Fall at 0, oscillate, and rise once more in the middle of 0 to 104157."""
+    bump = np.exp(-(((x - 70861.3) / 1087.4) ** 2))
+    return 0.9231 * bump - 0.5852 * np.cos(0.34913 * np.sqrt(x)) - 0.3986 * np.exp(-9.7806 * x)
+
+
+def _narrow_bump(x):
+    """Rise only at 1117, a thousandth of the interval, on a slow decay."""
+    bump = np.exp(-(((x - 1117.07) / 105.9) ** 2))
+    return 0.508 / (1 + 2.93e-6 * x) + 2.037 / (1 + 1.736e-4 * x) - 0.7733 * bump
+
+
+@pytest.mark.parametrize(
+    ("name", "mass", "h", "tolerance"),
+    [
+        ("cur", "voronoi", _at_the_low_end, 5.3e-7),
+        ("bad", "consistent", _narrow_bump, 3.3e-3),
+    ],
+)
+def test_features_that_few_ritz_values_do_not_see(name, mass, h, tolerance):
+    """Found by a search: one needs the ends of the interval, the other close looks near 0."""
+    pair = laplacian(MESHES[name](), mass=mass)
+    f = np.eye(pair.n)[:, [0, 7, 52, 55, 64, 112, 126]]
+    exact = filter_function(pair, f, h, "exact")
+    found = filter_function(pair, f, h, "lanczos", tolerance=tolerance)
+    assert _error(pair, found, exact, f) < 2 * tolerance
+
+
 def test_lanczos_with_few_vectors_says_so(monkeypatch):
     monkeypatch.setattr("beltrami.spectrum.lanczos._MOST", 30)
     pair = laplacian(MESHES["bad"]())

@@ -27,7 +27,7 @@ class ChebyshevSeries:
     coefficients : (order + 1,) c_k
     interval : Interval of λ
     size : the largest |h| met in the interval
-    error : an estimate of max |p - h| over the interval, with what rounding adds in a filter; as
+    error : an estimate of max |p - h| over the interval, rounding included; as
         good as the samples of h. A jump has an error of half its height, whatever the order.
     """
 
@@ -154,16 +154,4 @@ def _interpolant(
         order = min(int(enough[0]), nodes // 2)
     kept = c[: order + 1]
     missed = np.abs(ChebyshevSeries(kept.copy(), interval, size, 0.0)(places) - truth).max()
-    truncation = max(float(missed), float(tails[order]))
-    return ChebyshevSeries(kept.copy(), interval, size, truncation + _rounding(kept))
-
-
-def _rounding(c: Floats) -> float:
-    """Estimate what rounding adds: the matrix is known to ε times its norm, and p has slopes.
-
-    In x, the slopes are Σ k² c_k (±1)^(k + 1) at the ends, and at most about Σ k |c_k| between.
-    """
-    k = np.arange(len(c), dtype=np.float64)
-    steps = k**2 * c
-    slope = max(abs(float(steps.sum())), abs(float(steps[1::2].sum() - steps[::2].sum())))
-    return float(np.finfo(np.float64).eps * max(slope, float((k * np.abs(c)).sum())))
+    return ChebyshevSeries(kept.copy(), interval, size, max(float(missed), float(tails[order])))
