@@ -19,6 +19,7 @@ from beltrami.errors import (
     SingularMatrixError,
     StepTooLongError,
     SurfaceError,
+    TruncationError,
     UnknownNameError,
     check_name,
 )
@@ -27,6 +28,7 @@ EXAMPLES = (
     MeshError("bad", vertices=[3, 1], faces=[2], edges=[[0, 1]], remedy="Mend it."),
     NotManifoldError("bad", edges=np.array([[4, 5]])),
     StepTooLongError(2.0, 0.5),
+    TruncationError(0.25, 12),
     SingularMatrixError("singular", rows=[7]),
     NotPositiveDefiniteError([3, 4]),
     ConvergenceError("late"),
@@ -76,7 +78,8 @@ def test_the_kinds_of_mesh_errors(name):
     cls = getattr(errors, name)
     others = (StepTooLongError, SingularMatrixError, ConvergenceError, UnknownNameError)
     others += (FileFormatError, MissingExtraError, BeltramiError, NotPositiveDefiniteError)
-    others += (ApproximationError, SurfaceError, RankLossError, NotDifferentiableError)
+    others += (SurfaceError, RankLossError, NotDifferentiableError, TruncationError)
+    others += (ApproximationError,)
     assert issubclass(cls, MeshError) != (cls in others)
 
 

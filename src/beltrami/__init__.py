@@ -20,9 +20,18 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from beltrami import errors as errors
+    from beltrami.diffusion.bumps import gaussian_bumps as gaussian_bumps
+    from beltrami.diffusion.denoise import Denoised as Denoised
+    from beltrami.diffusion.denoise import denoise as denoise
+    from beltrami.diffusion.denoise_function import DenoisedFunction as DenoisedFunction
+    from beltrami.diffusion.denoise_function import denoise_function as denoise_function
     from beltrami.diffusion.heat import heat as heat
+    from beltrami.diffusion.interpolate import interpolate as interpolate
+    from beltrami.diffusion.poisson import poisson as poisson
+    from beltrami.diffusion.regularize import regularize as regularize
     from beltrami.diffusion.smooth_mesh import smooth_mesh as smooth_mesh
     from beltrami.diffusion.smoothing import smooth as smooth
+    from beltrami.diffusion.wave import wave as wave
     from beltrami.display.light import DirectionalLight as DirectionalLight
     from beltrami.display.light import SpotLight as SpotLight
     from beltrami.display.render import render as render
@@ -87,6 +96,8 @@ __version__ = "0.1.0"
 _HOME = {
     "Atlas": "surfaces.atlas",
     "Curvature": "operators.curvature",
+    "Denoised": "diffusion.denoise",
+    "DenoisedFunction": "diffusion.denoise_function",
     "Diagnosis": "mesh.diagnose",
     "DirectionalLight": "display.light",
     "Disk": "surfaces.domain",
@@ -111,6 +122,8 @@ _HOME = {
     "conjugate_gradients": "solvers.conjugate_gradients",
     "convolve": "grids.convolution",
     "curvature": "operators.curvature",
+    "denoise": "diffusion.denoise",
+    "denoise_function": "diffusion.denoise_function",
     "dft": "grids.transform",
     "diagnose": "mesh.diagnose",
     "dirichlet_energy": "operators.energy",
@@ -123,10 +136,12 @@ _HOME = {
     "factorize": "solvers.factorize",
     "filter": "spectrum.filtering",
     "fourier_basis": "spectrum.fourier_basis",
+    "gaussian_bumps": "diffusion.bumps",
     "geodesic_distance": "geodesics.distance",
     "heat": "diffusion.heat",
     "idft": "grids.transform",
     "integrate": "operators.integrals",
+    "interpolate": "diffusion.interpolate",
     "intrinsic_delaunay": "operators.intrinsic",
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",
@@ -135,14 +150,17 @@ _HOME = {
     "meyer_frame": "spectrum.wavelets",
     "minres": "solvers.minres",
     "plot_spectrum": "display.spectrum_plot",
+    "poisson": "diffusion.poisson",
     "project": "operators.projection",
     "read_function": "io.function",
     "read_mesh": "io.registry",
+    "regularize": "diffusion.regularize",
     "render": "display.render",
     "repair": "mesh.repair",
     "smooth": "diffusion.smoothing",
     "smooth_mesh": "diffusion.smooth_mesh",
     "vertex_areas": "operators.areas",
+    "wave": "diffusion.wave",
     "write_mesh": "io.registry",
 }
 _MODULES = {"errors": "errors", "kernels": "spectrum.kernels", "shapes": "mesh.shapes"}

@@ -17,6 +17,7 @@ __all__ = [
     "DimensionError",
     "EmptyMeshError",
     "FileFormatError",
+    "IncompatibleError",
     "MeshError",
     "MissingExtraError",
     "NegativeWeightError",
@@ -30,6 +31,7 @@ __all__ = [
     "SingularMatrixError",
     "StepTooLongError",
     "SurfaceError",
+    "TruncationError",
     "UnknownNameError",
     "UnreferencedVertexError",
 ]
@@ -127,6 +129,10 @@ class NegativeWeightError(MeshError):
     """The operation needs non-negative weights; ``edges`` lists those that are not."""
 
 
+class IncompatibleError(MeshError):
+    """A Poisson problem without a solution; ``vertices`` has one of each component at fault."""
+
+
 class SurfaceError(BeltramiError, ValueError):
     """A parametric surface is not what the operation needs; ``parameters`` are the guilty (u, v).
 
@@ -165,6 +171,17 @@ class StepTooLongError(BeltramiError, ValueError):
         super().__init__(
             f"the explicit scheme is unstable with a step of {step:.6g}: the longest allowed is "
             f"{longest:.6g}. Take more steps, or the implicit scheme, which has no such bound"
+        )
+
+
+class TruncationError(BeltramiError, ValueError):
+    """A basis leaves out more than was allowed: ``left_out`` of the norm of the function."""
+
+    def __init__(self, left_out: float, count: int) -> None:
+        self.left_out = left_out
+        super().__init__(
+            f"the {count} modes of the basis leave out up to {left_out:.2g} of the norm of the "
+            "result. Take more modes, another method, or a larger tolerance"
         )
 
 

@@ -7,16 +7,19 @@ from typing import Annotated
 import typer
 
 from beltrami.cli.curvature import curvature
+from beltrami.cli.denoise import denoise
 from beltrami.cli.endings import ending_well
 from beltrami.cli.filter import filter as filter_verb
 from beltrami.cli.geodesics import geodesics
 from beltrami.cli.heat import heat
 from beltrami.cli.info import info
 from beltrami.cli.integrate import integrate
+from beltrami.cli.regularize import regularize
 from beltrami.cli.render import render
 from beltrami.cli.repair import repair
 from beltrami.cli.smooth import smooth
 from beltrami.cli.tour import tour
+from beltrami.cli.wave import wave
 
 app = typer.Typer(
     name="beltrami",
@@ -30,8 +33,11 @@ for verb in (
     info,
     repair,
     smooth,
+    denoise,
     heat,
     filter_verb,
+    wave,
+    regularize,
     curvature,
     geodesics,
     integrate,

@@ -237,6 +237,15 @@ class Laplacian:
                 "needs no sign.",
             )
 
+    def require_semi_definite(self, what: str) -> None:
+        """Raise NegativeWeightError if <Lf, f> >= 0 is not proven: negative weights of yours."""
+        if len(self._negative_edges) and not self._of_a_surface:
+            raise NegativeWeightError(
+                f"{what} needs a positive semi-definite stiffness, and with negative weights that "
+                "are no cotangents nothing is proven",
+                edges=self._negative_edges,
+            )
+
     @cached_property
     def _negative_edges(self) -> Integers:
         """Return the edges with a negative weight."""
