@@ -113,7 +113,7 @@ class _Space:
                 break
             if order is None and (size >= look or size == most):
                 look = size + max(4, size // 3)
-                error = watch.error(self.alpha, self.beta)
+                error = watch.error(self.alpha, self.beta, tolerance)
                 if error <= tolerance:
                     break
         if error > tolerance:

@@ -48,16 +48,18 @@ class Watch:
         values = evaluate(self.h, np.clip(ritz, *self.interval))
         return np.asarray(modes @ (values * modes[0]))
 
-    def error(self, alpha: Sequence[float], beta: Sequence[float]) -> float:
+    def error(self, alpha: Sequence[float], beta: Sequence[float], enough: float) -> float:
         """Estimate the error beside the largest |h|, from T and the β that leads out of it.
 
         The sum of the changes since the last call, and by one more Ritz value at any of the places
-        that matter.
+        that matter; those are not tried if the former alone is more than ``enough``.
         """
         ritz, modes = ritz_pairs(alpha, beta[:-1])
         newer = self.coordinates(ritz, modes)
         changes = [_distance(newer, self.older)]
         self.older = newer
+        if changes[0] > enough * self.size:
+            return changes[0] / self.size
         for place in (*self.ends, *self._unseen(ritz)):
             gaps = ritz - place
             if np.abs(gaps).min() <= 1e-13 * np.abs(ritz).max():
