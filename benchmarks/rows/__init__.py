@@ -5,6 +5,7 @@ from __future__ import annotations
 from benchmarks.claims import Row
 from benchmarks.rows.adjacency import ADJACENCY
 from benchmarks.rows.assembly import ASSEMBLY
+from benchmarks.rows.eigenpairs import EIGEN_50, EIGEN_200, EIGEN_500, EIGEN_LARGE
 from benchmarks.rows.factorizing import FACTORIZE, FACTORIZE_LARGE, SOLVE_3, SOLVE_64
 from benchmarks.rows.geodesics import GEODESICS, GEODESICS_PREPARED
 from benchmarks.rows.intrinsic import INTRINSIC
@@ -24,6 +25,10 @@ ROWS: tuple[Row, ...] = (
     FACTORIZE_LARGE,
     SOLVE_3,
     SOLVE_64,
+    EIGEN_50,
+    EIGEN_200,
+    EIGEN_500,
+    EIGEN_LARGE,
     CONJUGATE_GRADIENTS,
     READ_OBJ,
     READ_OFF,

@@ -21,6 +21,10 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from beltrami import errors as errors
     from beltrami.diffusion.bumps import gaussian_bumps as gaussian_bumps
+    from beltrami.diffusion.denoise import Denoised as Denoised
+    from beltrami.diffusion.denoise import denoise as denoise
+    from beltrami.diffusion.denoise_function import DenoisedFunction as DenoisedFunction
+    from beltrami.diffusion.denoise_function import denoise_function as denoise_function
     from beltrami.diffusion.heat import heat as heat
     from beltrami.diffusion.interpolate import interpolate as interpolate
     from beltrami.diffusion.poisson import poisson as poisson
@@ -92,6 +96,8 @@ __version__ = "0.1.0"
 _HOME = {
     "Atlas": "surfaces.atlas",
     "Curvature": "operators.curvature",
+    "Denoised": "diffusion.denoise",
+    "DenoisedFunction": "diffusion.denoise_function",
     "Diagnosis": "mesh.diagnose",
     "DirectionalLight": "display.light",
     "Disk": "surfaces.domain",
@@ -117,6 +123,8 @@ _HOME = {
     "conjugate_gradients": "solvers.conjugate_gradients",
     "convolve": "grids.convolution",
     "curvature": "operators.curvature",
+    "denoise": "diffusion.denoise",
+    "denoise_function": "diffusion.denoise_function",
     "dft": "grids.transform",
     "diagnose": "mesh.diagnose",
     "dirichlet_energy": "operators.energy",

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from beltrami.cli.curvature import curvature
+from beltrami.cli.denoise import denoise
 from beltrami.cli.endings import ending_well
 from beltrami.cli.geodesics import geodesics
 from beltrami.cli.heat import heat
@@ -31,6 +32,7 @@ for verb in (
     info,
     repair,
     smooth,
+    denoise,
     heat,
     wave,
     regularize,

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +12,7 @@ from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats, as_function, read_only, read_only_matrix
 from beltrami.errors import DimensionError, NonFiniteError
+from beltrami.solvers.computation import Computation
 from beltrami.spectrum.basis_file import write_basis
 
 
@@ -29,13 +31,16 @@ class FourierBasis:
     eigenvalues : (k,) ascending
     eigenvectors : (n, k), one in each column, B-orthonormal
     mass : (n, n) csr_array B
-    residuals : (k,) norms of :math:`L\varphi - \lambda B\varphi` beside :math:`\lambda B\varphi`
+    residuals : (k,) norms of :math:`L\varphi - \lambda B\varphi` beside :math:`\lambda B\varphi`,
+        of constants beside :math:`|L| |\varphi|`
+    computation : how they were found: method, precision, steps, seconds, what is proven
     """
 
     eigenvalues: Floats
     eigenvectors: Floats
     mass: csr_array
     residuals: Floats
+    computation: Computation = field(default_factory=Computation)
 
     def __post_init__(self) -> None:
         for array in (self.eigenvalues, self.eigenvectors, self.residuals):
@@ -55,7 +60,14 @@ class FourierBasis:
         OSError
             If the folder does not exist or cannot be written.
         """
-        write_basis(path, self.eigenvalues, self.eigenvectors, self.residuals, self.mass)
+        write_basis(
+            path,
+            self.eigenvalues,
+            self.eigenvectors,
+            self.mass,
+            self.residuals,
+            self.computation,
+        )
 
     @property
     def n(self) -> int:
@@ -66,6 +78,12 @@ class FourierBasis:
     def k(self) -> int:
         """Number of eigenpairs k."""
         return int(self.eigenvectors.shape[1])
+
+    @cached_property
+    def orthogonality(self) -> float:
+        r"""Largest entry of :math:`\Phi^T B \Phi - Id`; n k² operations, when asked for."""
+        gram = self.eigenvectors.T @ (self.mass @ self.eigenvectors)
+        return float(np.abs(gram - np.eye(self.k)).max(initial=0.0))
 
     def forward(self, f: ArrayLike) -> Floats:
         r"""Transform a function: :math:`\hat f = \Phi^T B f`, (n,) to (k,) or (n, c) to (k, c)."""
