@@ -79,11 +79,26 @@ if TYPE_CHECKING:
     from beltrami.solvers.iteration import IterativeSolution as IterativeSolution
     from beltrami.solvers.minres import minres as minres
     from beltrami.spectrum.basis import FourierBasis as FourierBasis
+    from beltrami.spectrum.correspondence import FunctionalMap as FunctionalMap
+    from beltrami.spectrum.correspondence import (
+        functional_map_from_points as functional_map_from_points,
+    )
+    from beltrami.spectrum.distances import spectral_distance as spectral_distance
+    from beltrami.spectrum.distances import spectral_embedding as spectral_embedding
     from beltrami.spectrum.fourier_basis import fourier_basis as fourier_basis
+    from beltrami.spectrum.functional_map import functional_map as functional_map
+    from beltrami.spectrum.heat_kernel import heat_kernel_signature as heat_kernel_signature
     from beltrami.spectrum.inverse_iteration import inverse_iteration as inverse_iteration
     from beltrami.spectrum.load_basis import load_basis as load_basis
     from beltrami.spectrum.nodal_domains import NodalDomains as NodalDomains
     from beltrami.spectrum.nodal_domains import nodal_domains as nodal_domains
+    from beltrami.spectrum.segment import Segmentation as Segmentation
+    from beltrami.spectrum.segment import nodal_segmentation as nodal_segmentation
+    from beltrami.spectrum.segment import segment as segment
+    from beltrami.spectrum.shape_dna import shape_dna as shape_dna
+    from beltrami.spectrum.signature import Signature as Signature
+    from beltrami.spectrum.wave_kernel import wave_kernel_signature as wave_kernel_signature
+    from beltrami.spectrum.zoomout import zoomout as zoomout
     from beltrami.surfaces.atlas import Atlas as Atlas
     from beltrami.surfaces.ball_average import ball_average_laplacian as ball_average_laplacian
     from beltrami.surfaces.domain import Disk as Disk
@@ -103,6 +118,7 @@ _HOME = {
     "Disk": "surfaces.domain",
     "Factor": "solvers.factor",
     "FourierBasis": "spectrum.basis",
+    "FunctionalMap": "spectrum.correspondence",
     "Grid": "grids.grid",
     "HeatMethod": "geodesics.heat_method",
     "IntrinsicTriangulation": "operators.intrinsic",
@@ -115,6 +131,8 @@ _HOME = {
     "PointCloud": "operators.point_cloud",
     "Rectangle": "surfaces.domain",
     "Repair": "mesh.repair",
+    "Segmentation": "spectrum.segment",
+    "Signature": "spectrum.signature",
     "SpotLight": "display.light",
     "Topology": "mesh.topology",
     "as_mesh": "mesh.convert",
@@ -136,9 +154,12 @@ _HOME = {
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
     "fourier_basis": "spectrum.fourier_basis",
+    "functional_map": "spectrum.functional_map",
+    "functional_map_from_points": "spectrum.correspondence",
     "gaussian_bumps": "diffusion.bumps",
     "geodesic_distance": "geodesics.distance",
     "heat": "diffusion.heat",
+    "heat_kernel_signature": "spectrum.heat_kernel",
     "idft": "grids.transform",
     "integrate": "operators.integrals",
     "interpolate": "diffusion.interpolate",
@@ -150,6 +171,7 @@ _HOME = {
     "load_basis": "spectrum.load_basis",
     "minres": "solvers.minres",
     "nodal_domains": "spectrum.nodal_domains",
+    "nodal_segmentation": "spectrum.segment",
     "plot_spectrum": "display.spectrum_plot",
     "poisson": "diffusion.poisson",
     "project": "operators.projection",
@@ -158,11 +180,17 @@ _HOME = {
     "regularize": "diffusion.regularize",
     "render": "display.render",
     "repair": "mesh.repair",
+    "segment": "spectrum.segment",
+    "shape_dna": "spectrum.shape_dna",
     "smooth": "diffusion.smoothing",
     "smooth_mesh": "diffusion.smooth_mesh",
+    "spectral_distance": "spectrum.distances",
+    "spectral_embedding": "spectrum.distances",
     "vertex_areas": "operators.areas",
     "wave": "diffusion.wave",
+    "wave_kernel_signature": "spectrum.wave_kernel",
     "write_mesh": "io.registry",
+    "zoomout": "spectrum.zoomout",
 }
 _MODULES = {"errors": "errors", "shapes": "mesh.shapes"}
 

@@ -8,6 +8,7 @@ import typer
 
 from beltrami.cli.curvature import curvature
 from beltrami.cli.denoise import denoise
+from beltrami.cli.descriptors import descriptors
 from beltrami.cli.endings import ending_well
 from beltrami.cli.geodesics import geodesics
 from beltrami.cli.heat import heat
@@ -39,6 +40,7 @@ for verb in (
     curvature,
     geodesics,
     integrate,
+    descriptors,
     render,
     tour,
 ):
