@@ -39,6 +39,14 @@ EXAMPLES = (
 )
 
 
+@pytest.mark.parametrize("thing", [np.eye(40), "x" * 999, list(range(999)), {"a": "b\nc"}])
+def test_what_was_given_is_shown_in_one_short_line(thing):
+    said = errors.shown(thing)
+    assert len(said) <= 60
+    assert "\n" not in said
+    assert said[:5] == repr(thing)[:5]
+
+
 @pytest.mark.parametrize("name", errors.__all__)
 def test_every_error_is_one_of_this_library(name):
     assert issubclass(getattr(errors, name), BeltramiError)

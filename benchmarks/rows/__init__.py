@@ -5,6 +5,7 @@ from __future__ import annotations
 from benchmarks.claims import Row
 from benchmarks.rows.adjacency import ADJACENCY
 from benchmarks.rows.assembly import ASSEMBLY
+from benchmarks.rows.convolving import CONVOLUTIONS
 from benchmarks.rows.eigenpairs import EIGEN_50, EIGEN_200, EIGEN_500, EIGEN_LARGE
 from benchmarks.rows.factorizing import FACTORIZE, FACTORIZE_LARGE, SOLVE_3, SOLVE_64
 from benchmarks.rows.geodesics import GEODESICS, GEODESICS_PREPARED
@@ -33,6 +34,7 @@ ROWS: tuple[Row, ...] = (
     READ_OBJ,
     READ_OFF,
     READ_PLY,
+    *CONVOLUTIONS,
     IMPORT,
     FIRST_CALL,
 )

@@ -93,7 +93,6 @@ if TYPE_CHECKING:
     from beltrami.spectrum.nodal_domains import NodalDomains as NodalDomains
     from beltrami.spectrum.nodal_domains import nodal_domains as nodal_domains
     from beltrami.spectrum.segment import Segmentation as Segmentation
-    from beltrami.spectrum.segment import nodal_segmentation as nodal_segmentation
     from beltrami.spectrum.segment import segment as segment
     from beltrami.spectrum.shape_dna import shape_dna as shape_dna
     from beltrami.spectrum.signature import Signature as Signature
@@ -171,7 +170,6 @@ _HOME = {
     "load_basis": "spectrum.load_basis",
     "minres": "solvers.minres",
     "nodal_domains": "spectrum.nodal_domains",
-    "nodal_segmentation": "spectrum.segment",
     "plot_spectrum": "display.spectrum_plot",
     "poisson": "diffusion.poisson",
     "project": "operators.projection",

@@ -36,6 +36,7 @@ __all__ = [
 ]
 
 _SHOWN = 5
+_LONGEST = 60
 
 
 def _named(kind: str, indices: NDArray[Any]) -> str:
@@ -43,6 +44,18 @@ def _named(kind: str, indices: NDArray[Any]) -> str:
     shown = ", ".join(str(i if np.ndim(i) == 0 else tuple(i)) for i in indices[:_SHOWN].tolist())
     more = len(indices) - _SHOWN
     return f"{kind} {shown}" + (f" and {more} more" if more > 0 else "")
+
+
+def shown(value: object) -> str:
+    """Write what a user gave in one short line, for a message.
+
+    Examples
+    --------
+    >>> shown(np.eye(2)), shown("x" * 99)
+    ('array([[1., 0.], [0., 1.]])', "'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...")
+    """
+    text = " ".join(repr(value).split())
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."
 
 
 def _rebuild(cls: type[BeltramiError], args: tuple[Any, ...], state: dict[str, Any]) -> Any:
@@ -223,7 +236,7 @@ class UnknownNameError(BeltramiError, ValueError):
         near = difflib.get_close_matches(str(name), self.choices, n=1)
         hint = f" Did you mean {near[0]!r}?" if near else ""
         listed = ", ".join(repr(choice) for choice in self.choices)
-        super().__init__(f"unknown {what} {name!r}: choose one of {listed}.{hint}")
+        super().__init__(f"unknown {what} {shown(name)}: choose one of {listed}.{hint}")
 
 
 class FileFormatError(BeltramiError, ValueError):

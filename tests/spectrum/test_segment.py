@@ -1,4 +1,4 @@
-"""Segments: k-means against its definition, parts that anyone would name, nodal domains."""
+"""Segments: k-means against its definition, and parts that anyone would name."""
 
 import numpy as np
 import pytest
@@ -6,12 +6,12 @@ import pytest
 import spectra
 from beltrami.errors import BeltramiError, MeshError, UnknownNameError
 from beltrami.mesh.connectivity import component_labels
-from beltrami.mesh.shapes import cylinder, grid, icosphere
+from beltrami.mesh.shapes import cylinder, icosphere
 from beltrami.operators.laplacian import laplacian
 from beltrami.spectrum.distances import spectral_embedding
 from beltrami.spectrum.fourier_basis import fourier_basis
 from beltrami.spectrum.k_means import in_order_of_appearance, k_means
-from beltrami.spectrum.segment import nodal_segmentation, segment
+from beltrami.spectrum.segment import segment
 
 
 def pieces(labels, edges):
@@ -136,29 +136,6 @@ def test_k_means_finds_what_one_start_misses():
     assert total < 1.1 * best
 
 
-@pytest.mark.parametrize("name", ["closed", "open", "bad", "cur", "creature"])
-def test_the_theorem_of_courant(name):
-    """Mode i has i + 1 domains at most (where there are no negative weights, proven)."""
-    mesh = spectra.mesh_of(name)
-    basis = spectra.basis_of(name, 30)
-    for mode in range(30):
-        parts = nodal_segmentation(basis, mode, mesh.edges)
-        assert parts.count <= mode + 1
-        assert pieces(parts.labels, mesh.edges) == parts.count
-        for label in range(parts.count):
-            assert len(set(np.sign(basis.eigenvectors[parts.labels == label, mode]))) == 1
-    assert nodal_segmentation(basis, 1, mesh.edges).count == 2
-
-
-def test_nodal_domains_of_a_rectangle():
-    sheet = grid(21, 13, 2.0, 1.3)
-    basis = fourier_basis(laplacian(sheet), 6)
-    parts = nodal_segmentation(basis, 4, sheet.edges)  # cos πx, after those of x, y, xy
-    x = sheet.vertices[:, 0] - sheet.vertices[:, 0].min()
-    assert parts.count == 3
-    assert same_partition(parts.labels, np.digitize(x, [0.5, 1.5]))
-
-
 def test_wrong_input():
     basis = spectra.basis_of("pl", 10)
     for count in (0, 57, 2.5):
@@ -171,11 +148,6 @@ def test_wrong_input():
     for edges in ([0, 1], [[0, 56]], [[0, 1, 2]], [[0.5, 1]]):
         with pytest.raises(MeshError):
             segment(basis, 3, edges=edges)
-        with pytest.raises(MeshError):
-            nodal_segmentation(basis, 3, edges)
-    for mode in (-1, 10, 1.0):
-        with pytest.raises(BeltramiError, match="mode"):
-            nodal_segmentation(basis, mode, [[0, 1]])
     with pytest.raises(MeshError, match="all zero"):
         segment(fourier_basis(laplacian(icosphere(1)), 1), 2)
     parts = segment(basis, 3)

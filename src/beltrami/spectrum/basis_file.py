@@ -65,7 +65,7 @@ def read_basis(
             raise ValueError("eigenvalues that do not ascend")
         mass = _mass(arrays, len(vectors))
         return values, vectors, mass, residuals, _computation(arrays["computation"])
-    except (IndexError, KeyError, TypeError, ValueError) as cause:
+    except (LookupError, TypeError, ValueError, OverflowError, RecursionError) as cause:
         raise FileFormatError(Path(path), f"expected the arrays of a basis ({cause})") from cause
 
 

@@ -1,4 +1,4 @@
-"""segment: part a surface by its eigenvectors, into clusters or nodal domains."""
+"""segment: part a surface by its eigenvectors."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Segmentation:
     labels : (n,) int, 0 to count - 1, numbered in the order of the first vertex of each
     masses : (count,) the mass, that is the area, of each segment
     spread : the mean squared distance of the vertices from the centre of their cluster, in the
-        embedding; 0 for nodal domains
+        embedding
     """
 
     labels: Integers
@@ -127,46 +127,6 @@ def segment(
     if edges is not None:
         labels = _pieces(labels, _checked(edges, basis.n))
     return Segmentation(labels, _masses(labels, masses), total / masses.sum())
-
-
-def nodal_segmentation(basis: FourierBasis, mode: int, edges: ArrayLike) -> Segmentation:
-    r"""Part a surface where an eigenvector changes sign, into its nodal domains.
-
-    Each domain is a piece, connected along the edges, on which :math:`\varphi_i > 0`, or
-    :math:`\varphi_i \le 0`; ``nodal_domains`` treats zeros otherwise, and any function. Courant: on a connected surface mode i, counted from 0, has i + 1 of
-    them at most, if the eigenvalue is simple.
-
-    Parameters
-    ----------
-    basis
-        The k smallest eigenpairs of any pair (L, B).
-    mode
-        Which eigenvector, from 0.
-    edges
-        (p, 2) pairs of vertices, such as ``mesh.edges``.
-
-    Raises
-    ------
-    BeltramiError
-        If the basis has no such mode.
-    MeshError
-        If the edges are no pairs of vertices.
-
-    Examples
-    --------
-    >>> from beltrami.mesh.shapes import grid
-    >>> from beltrami.operators.laplacian import laplacian
-    >>> from beltrami.spectrum.fourier_basis import fourier_basis
-    >>> sheet = grid(30, 6, 5.0, 1.0)
-    >>> basis = fourier_basis(laplacian(sheet), 5)
-    >>> [nodal_segmentation(basis, mode, sheet.edges).count for mode in range(5)]
-    [1, 2, 3, 4, 5]
-    """
-    if as_count(mode, "mode", least=0) >= basis.k:
-        raise BeltramiError(f"mode {mode} is not among the {basis.k} of the basis")
-    positive = (basis.eigenvectors[:, mode] > 0).astype(np.int64)
-    labels = _pieces(positive, _checked(edges, basis.n))
-    return Segmentation(labels, _masses(labels, vertex_masses(basis)), 0.0)
 
 
 def _checked(edges: ArrayLike, n: int) -> Integers:
