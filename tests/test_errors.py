@@ -6,6 +6,7 @@ import pytest
 
 from beltrami import errors
 from beltrami.errors import (
+    ApproximationError,
     BeltramiError,
     ConvergenceError,
     FileFormatError,
@@ -31,6 +32,7 @@ EXAMPLES = (
     SingularMatrixError("singular", rows=[7]),
     NotPositiveDefiniteError([3, 4]),
     ConvergenceError("late"),
+    ApproximationError("far", 0.5, "Come nearer."),
     UnknownNameError("weights", "cotan", ("cotangent", "distance")),
     FileFormatError("a.obj", "no number", line=7),
     RankLossError("no immersion", parameters=[[0.0, 1.5]], remedy="Move."),
@@ -85,6 +87,7 @@ def test_the_kinds_of_mesh_errors(name):
     others = (StepTooLongError, SingularMatrixError, ConvergenceError, UnknownNameError)
     others += (FileFormatError, MissingExtraError, BeltramiError, NotPositiveDefiniteError)
     others += (SurfaceError, RankLossError, NotDifferentiableError, TruncationError)
+    others += (ApproximationError,)
     assert issubclass(cls, MeshError) != (cls in others)
 
 

@@ -8,6 +8,7 @@ from benchmarks.rows.assembly import ASSEMBLY
 from benchmarks.rows.convolving import CONVOLUTIONS
 from benchmarks.rows.eigenpairs import EIGEN_50, EIGEN_200, EIGEN_500, EIGEN_LARGE
 from benchmarks.rows.factorizing import FACTORIZE, FACTORIZE_LARGE, SOLVE_3, SOLVE_64
+from benchmarks.rows.filtering import FILTERING
 from benchmarks.rows.geodesics import GEODESICS, GEODESICS_PREPARED
 from benchmarks.rows.intrinsic import INTRINSIC
 from benchmarks.rows.iterating import CONJUGATE_GRADIENTS
@@ -21,6 +22,7 @@ ROWS: tuple[Row, ...] = (
     GEODESICS,
     GEODESICS_PREPARED,
     SMOOTHING,
+    FILTERING,
     ADJACENCY,
     FACTORIZE,
     FACTORIZE_LARGE,

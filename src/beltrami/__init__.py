@@ -78,6 +78,7 @@ if TYPE_CHECKING:
     from beltrami.solvers.inverse_iteration import InverseIteration as InverseIteration
     from beltrami.solvers.iteration import IterativeSolution as IterativeSolution
     from beltrami.solvers.minres import minres as minres
+    from beltrami.spectrum import kernels as kernels
     from beltrami.spectrum.basis import FourierBasis as FourierBasis
     from beltrami.spectrum.correspondence import FunctionalMap as FunctionalMap
     from beltrami.spectrum.correspondence import (
@@ -85,7 +86,9 @@ if TYPE_CHECKING:
     )
     from beltrami.spectrum.distances import spectral_distance as spectral_distance
     from beltrami.spectrum.distances import spectral_embedding as spectral_embedding
+    from beltrami.spectrum.filtering import filter as filter  # noqa: A004
     from beltrami.spectrum.fourier_basis import fourier_basis as fourier_basis
+    from beltrami.spectrum.frames import Frame as Frame
     from beltrami.spectrum.functional_map import functional_map as functional_map
     from beltrami.spectrum.heat_kernel import heat_kernel_signature as heat_kernel_signature
     from beltrami.spectrum.inverse_iteration import inverse_iteration as inverse_iteration
@@ -97,6 +100,8 @@ if TYPE_CHECKING:
     from beltrami.spectrum.shape_dna import shape_dna as shape_dna
     from beltrami.spectrum.signature import Signature as Signature
     from beltrami.spectrum.wave_kernel import wave_kernel_signature as wave_kernel_signature
+    from beltrami.spectrum.wavelets import mexican_hat_frame as mexican_hat_frame
+    from beltrami.spectrum.wavelets import meyer_frame as meyer_frame
     from beltrami.spectrum.zoomout import zoomout as zoomout
     from beltrami.surfaces.atlas import Atlas as Atlas
     from beltrami.surfaces.ball_average import ball_average_laplacian as ball_average_laplacian
@@ -117,6 +122,7 @@ _HOME = {
     "Disk": "surfaces.domain",
     "Factor": "solvers.factor",
     "FourierBasis": "spectrum.basis",
+    "Frame": "spectrum.frames",
     "FunctionalMap": "spectrum.correspondence",
     "Grid": "grids.grid",
     "HeatMethod": "geodesics.heat_method",
@@ -152,6 +158,7 @@ _HOME = {
     "face_divergence": "operators.gradient",
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
+    "filter": "spectrum.filtering",
     "fourier_basis": "spectrum.fourier_basis",
     "functional_map": "spectrum.functional_map",
     "functional_map_from_points": "spectrum.correspondence",
@@ -168,6 +175,8 @@ _HOME = {
     "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",
     "load_basis": "spectrum.load_basis",
+    "mexican_hat_frame": "spectrum.wavelets",
+    "meyer_frame": "spectrum.wavelets",
     "minres": "solvers.minres",
     "nodal_domains": "spectrum.nodal_domains",
     "plot_spectrum": "display.spectrum_plot",
@@ -190,7 +199,7 @@ _HOME = {
     "write_mesh": "io.registry",
     "zoomout": "spectrum.zoomout",
 }
-_MODULES = {"errors": "errors", "shapes": "mesh.shapes"}
+_MODULES = {"errors": "errors", "kernels": "spectrum.kernels", "shapes": "mesh.shapes"}
 
 __all__ = sorted([*_HOME, *_MODULES])
 

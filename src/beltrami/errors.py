@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
+    "ApproximationError",
     "BeltramiError",
     "ConvergenceError",
     "DegenerateFaceError",
@@ -225,6 +226,25 @@ class ConvergenceError(BeltramiError, RuntimeError):
     def __init__(self, problem: str, residuals: ArrayLike = ()) -> None:
         self.residuals = np.asarray(residuals, dtype=np.float64)
         super().__init__(problem)
+
+
+class ApproximationError(ConvergenceError):
+    """A function of a matrix is not as near as it was wanted.
+
+    Parameters
+    ----------
+    problem
+        What is wrong, without a final stop.
+    estimate
+        The error reached, beside the largest value of the function.
+    remedy
+        What to do about it, as a sentence.
+    """
+
+    def __init__(self, problem: str, estimate: float, remedy: str) -> None:
+        self.estimate = estimate
+        self.remedy = remedy
+        super().__init__(f"{problem}. {remedy}")
 
 
 class UnknownNameError(BeltramiError, ValueError):

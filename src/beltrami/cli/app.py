@@ -10,6 +10,7 @@ from beltrami.cli.curvature import curvature
 from beltrami.cli.denoise import denoise
 from beltrami.cli.descriptors import descriptors
 from beltrami.cli.endings import ending_well
+from beltrami.cli.filter import filter as filter_verb
 from beltrami.cli.geodesics import geodesics
 from beltrami.cli.heat import heat
 from beltrami.cli.info import info
@@ -35,6 +36,7 @@ for verb in (
     smooth,
     denoise,
     heat,
+    filter_verb,
     wave,
     regularize,
     curvature,
