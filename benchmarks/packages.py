@@ -15,6 +15,7 @@ DISTRIBUTIONS = (
     "meshio",
     "potpourri3d",
     "pyamg",
+    "pygsp",
     "pymeshlab",
     "pyvista",
     "robust_laplacian",

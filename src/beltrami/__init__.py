@@ -84,10 +84,34 @@ if TYPE_CHECKING:
     from beltrami.solvers.conjugate_gradients import conjugate_gradients as conjugate_gradients
     from beltrami.solvers.factor import Factor as Factor
     from beltrami.solvers.factorize import factorize as factorize
+    from beltrami.solvers.inverse_iteration import InverseIteration as InverseIteration
     from beltrami.solvers.iteration import IterativeSolution as IterativeSolution
     from beltrami.solvers.minres import minres as minres
+    from beltrami.spectrum import kernels as kernels
     from beltrami.spectrum.basis import FourierBasis as FourierBasis
+    from beltrami.spectrum.correspondence import FunctionalMap as FunctionalMap
+    from beltrami.spectrum.correspondence import (
+        functional_map_from_points as functional_map_from_points,
+    )
+    from beltrami.spectrum.distances import spectral_distance as spectral_distance
+    from beltrami.spectrum.distances import spectral_embedding as spectral_embedding
+    from beltrami.spectrum.filtering import filter as filter  # noqa: A004
     from beltrami.spectrum.fourier_basis import fourier_basis as fourier_basis
+    from beltrami.spectrum.frames import Frame as Frame
+    from beltrami.spectrum.functional_map import functional_map as functional_map
+    from beltrami.spectrum.heat_kernel import heat_kernel_signature as heat_kernel_signature
+    from beltrami.spectrum.inverse_iteration import inverse_iteration as inverse_iteration
+    from beltrami.spectrum.load_basis import load_basis as load_basis
+    from beltrami.spectrum.nodal_domains import NodalDomains as NodalDomains
+    from beltrami.spectrum.nodal_domains import nodal_domains as nodal_domains
+    from beltrami.spectrum.segment import Segmentation as Segmentation
+    from beltrami.spectrum.segment import segment as segment
+    from beltrami.spectrum.shape_dna import shape_dna as shape_dna
+    from beltrami.spectrum.signature import Signature as Signature
+    from beltrami.spectrum.wave_kernel import wave_kernel_signature as wave_kernel_signature
+    from beltrami.spectrum.wavelets import mexican_hat_frame as mexican_hat_frame
+    from beltrami.spectrum.wavelets import meyer_frame as meyer_frame
+    from beltrami.spectrum.zoomout import zoomout as zoomout
     from beltrami.surfaces.atlas import Atlas as Atlas
     from beltrami.surfaces.ball_average import ball_average_laplacian as ball_average_laplacian
     from beltrami.surfaces.domain import Disk as Disk
@@ -110,17 +134,23 @@ _HOME = {
     "Distortion": "parameterization.distortion",
     "Factor": "solvers.factor",
     "FourierBasis": "spectrum.basis",
+    "Frame": "spectrum.frames",
+    "FunctionalMap": "spectrum.correspondence",
     "Grid": "grids.grid",
     "HeatMethod": "geodesics.heat_method",
     "IntrinsicTriangulation": "operators.intrinsic",
+    "InverseIteration": "solvers.inverse_iteration",
     "IterativeSolution": "solvers.iteration",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
+    "NodalDomains": "spectrum.nodal_domains",
     "Parameterization": "parameterization.parameterization",
     "ParametricSurface": "surfaces.surface",
     "PointCloud": "operators.point_cloud",
     "Rectangle": "surfaces.domain",
     "Repair": "mesh.repair",
+    "Segmentation": "spectrum.segment",
+    "Signature": "spectrum.signature",
     "SpotLight": "display.light",
     "Topology": "mesh.topology",
     "as_mesh": "mesh.convert",
@@ -144,19 +174,28 @@ _HOME = {
     "face_divergence": "operators.gradient",
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
+    "filter": "spectrum.filtering",
     "fourier_basis": "spectrum.fourier_basis",
+    "functional_map": "spectrum.functional_map",
+    "functional_map_from_points": "spectrum.correspondence",
     "gaussian_bumps": "diffusion.bumps",
     "geodesic_distance": "geodesics.distance",
     "harmonic": "parameterization.harmonic",
     "heat": "diffusion.heat",
+    "heat_kernel_signature": "spectrum.heat_kernel",
     "idft": "grids.transform",
     "integrate": "operators.integrals",
     "interpolate": "diffusion.interpolate",
     "intrinsic_delaunay": "operators.intrinsic",
+    "inverse_iteration": "spectrum.inverse_iteration",
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",
+    "load_basis": "spectrum.load_basis",
+    "mexican_hat_frame": "spectrum.wavelets",
+    "meyer_frame": "spectrum.wavelets",
     "minres": "solvers.minres",
+    "nodal_domains": "spectrum.nodal_domains",
     "parameterize": "parameterization.parameterize",
     "plot_spectrum": "display.spectrum_plot",
     "poisson": "diffusion.poisson",
@@ -166,13 +205,19 @@ _HOME = {
     "regularize": "diffusion.regularize",
     "render": "display.render",
     "repair": "mesh.repair",
+    "segment": "spectrum.segment",
+    "shape_dna": "spectrum.shape_dna",
     "smooth": "diffusion.smoothing",
     "smooth_mesh": "diffusion.smooth_mesh",
+    "spectral_distance": "spectrum.distances",
+    "spectral_embedding": "spectrum.distances",
     "vertex_areas": "operators.areas",
     "wave": "diffusion.wave",
+    "wave_kernel_signature": "spectrum.wave_kernel",
     "write_mesh": "io.registry",
+    "zoomout": "spectrum.zoomout",
 }
-_MODULES = {"errors": "errors", "shapes": "mesh.shapes"}
+_MODULES = {"errors": "errors", "kernels": "spectrum.kernels", "shapes": "mesh.shapes"}
 
 __all__ = sorted([*_HOME, *_MODULES])
 

@@ -10,35 +10,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
-    "BeltramiError",
-    "BoundaryCurveError",
-    "ConvergenceError",
-    "DegenerateFaceError",
-    "DimensionError",
-    "EmptyMeshError",
-    "FileFormatError",
-    "FoldedMapError",
-    "IncompatibleError",
-    "MeshError",
-    "MissingExtraError",
-    "NegativeWeightError",
-    "NonFiniteError",
-    "NotADiskError",
-    "NotClosedError",
-    "NotDifferentiableError",
-    "NotManifoldError",
-    "NotOrientableError",
-    "NotPositiveDefiniteError",
-    "RankLossError",
-    "SingularMatrixError",
-    "StepTooLongError",
-    "SurfaceError",
-    "TruncationError",
-    "UnknownNameError",
-    "UnreferencedVertexError",
-]
+    "ApproximationError", "BeltramiError", "BoundaryCurveError", "ConvergenceError",
+    "DegenerateFaceError", "DimensionError", "EmptyMeshError", "FileFormatError",
+    "FoldedMapError", "IncompatibleError", "MeshError", "MissingExtraError",
+    "NegativeWeightError", "NonFiniteError", "NotADiskError", "NotClosedError",
+    "NotDifferentiableError", "NotManifoldError", "NotOrientableError",
+    "NotPositiveDefiniteError", "RankLossError", "SingularMatrixError", "StepTooLongError",
+    "SurfaceError", "TruncationError", "UnknownNameError", "UnreferencedVertexError",
+]  # fmt: skip
 
 _SHOWN = 5
+_LONGEST = 60
 
 
 def _named(kind: str, indices: NDArray[Any]) -> str:
@@ -46,6 +28,18 @@ def _named(kind: str, indices: NDArray[Any]) -> str:
     shown = ", ".join(str(i if np.ndim(i) == 0 else tuple(i)) for i in indices[:_SHOWN].tolist())
     more = len(indices) - _SHOWN
     return f"{kind} {shown}" + (f" and {more} more" if more > 0 else "")
+
+
+def shown(value: object) -> str:
+    """Write what a user gave in one short line, for a message.
+
+    Examples
+    --------
+    >>> shown(np.eye(2)), shown("x" * 99)
+    ('array([[1., 0.], [0., 1.]])', "'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...")
+    """
+    text = " ".join(repr(value).split())
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."
 
 
 def _rebuild(cls: type[BeltramiError], args: tuple[Any, ...], state: dict[str, Any]) -> Any:
@@ -229,6 +223,15 @@ class ConvergenceError(BeltramiError, RuntimeError):
         super().__init__(problem)
 
 
+class ApproximationError(ConvergenceError):
+    """h(B⁻¹L) is not as near as wanted; ``estimate`` is the error, beside the largest |h|."""
+
+    def __init__(self, problem: str, estimate: float, remedy: str) -> None:
+        self.estimate = estimate
+        self.remedy = remedy
+        super().__init__(f"{problem}. {remedy}")
+
+
 class UnknownNameError(BeltramiError, ValueError):
     """A name of a method or kind that does not exist; ``choices`` lists those that do."""
 
@@ -238,7 +241,7 @@ class UnknownNameError(BeltramiError, ValueError):
         near = difflib.get_close_matches(str(name), self.choices, n=1)
         hint = f" Did you mean {near[0]!r}?" if near else ""
         listed = ", ".join(repr(choice) for choice in self.choices)
-        super().__init__(f"unknown {what} {name!r}: choose one of {listed}.{hint}")
+        super().__init__(f"unknown {what} {shown(name)}: choose one of {listed}.{hint}")
 
 
 class FileFormatError(BeltramiError, ValueError):
@@ -278,12 +281,7 @@ class MissingExtraError(BeltramiError, ImportError):
 
 
 def check_name(what: str, name: object, choices: Sequence[str]) -> str:
-    """Return ``name`` if it is one of ``choices``.
-
-    Raises
-    ------
-    UnknownNameError
-        If it is not; the message lists the choices and the nearest one.
+    """Return ``name`` if it is one of ``choices``; UnknownNameError, with the nearest, if not.
 
     Examples
     --------

@@ -8,7 +8,9 @@ import typer
 
 from beltrami.cli.curvature import curvature
 from beltrami.cli.denoise import denoise
+from beltrami.cli.descriptors import descriptors
 from beltrami.cli.endings import ending_well
+from beltrami.cli.filter import filter as filter_verb
 from beltrami.cli.geodesics import geodesics
 from beltrami.cli.heat import heat
 from beltrami.cli.info import info
@@ -17,6 +19,7 @@ from beltrami.cli.regularize import regularize
 from beltrami.cli.render import render
 from beltrami.cli.repair import repair
 from beltrami.cli.smooth import smooth
+from beltrami.cli.spectrum import spectrum
 from beltrami.cli.tour import tour
 from beltrami.cli.wave import wave
 
@@ -34,11 +37,14 @@ for verb in (
     smooth,
     denoise,
     heat,
+    filter_verb,
     wave,
     regularize,
     curvature,
     geodesics,
     integrate,
+    spectrum,
+    descriptors,
     render,
     tour,
 ):

@@ -63,7 +63,7 @@ def heat(
     check_values_output(output)
     with waiting(f"reading {mesh.name}"):
         read = read_mesh(mesh)
-    held = read.topology.boundary_edges.ravel() if hold_boundary else ()
+    held = read.topology.on_boundary if hold_boundary else ()
     with waiting("diffusing") as progress:
         pair = laplacian(read, weights, mass)
         if data is not None:
@@ -80,7 +80,7 @@ def heat(
             steps,
             hold=held,
             damped_steps=damped_steps,
-            basis=None if modes is None else fourier_basis(pair, modes),
+            basis=None if modes is None else fourier_basis(pair, modes, hold=held),
             progress=progress,
         )
     write_values(output, read, "heat" if data is None else data_name or data.stem, result)

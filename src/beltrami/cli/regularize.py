@@ -43,7 +43,7 @@ def regularize(
         read = read_mesh(mesh)
         values = read_data(data, read, data_name)
         soft = None if measured is None else read_data(measured, read)
-    held = read.topology.boundary_edges.ravel() if hold_boundary else ()
+    held = read.topology.on_boundary if hold_boundary else ()
     with waiting("solving"):
         pair = laplacian(read, weights, mass)
         result = solve(pair, values, time, form, hold=held, weights=soft)

@@ -91,9 +91,9 @@ def wave(
     if suffix != ".npy" and start.ndim == 2:
         raise typer.BadParameter("pictures show one function: choose it, or write .npy")
     times = np.linspace(0, time, frames)
-    held = read.topology.boundary_edges.ravel() if hold_boundary else ()
+    held = read.topology.on_boundary if hold_boundary else ()
     pair = laplacian(read, weights, mass)
-    basis = None if modes is None else fourier_basis(pair, modes)
+    basis = None if modes is None else fourier_basis(pair, modes, hold=held)
 
     def states() -> Frames:
         return swing(pair, start, speed, times, method, step=step, hold=held, basis=basis)

@@ -11,7 +11,6 @@ from numpy.polynomial import Chebyshev
 
 from beltrami._arrays import Floats
 from beltrami.diffusion.face_rings import FaceRings, face_rings
-from beltrami.diffusion.locality import LocalRows, local_rows
 from beltrami.diffusion.normal_filters import filtered_normals
 from beltrami.diffusion.normal_variation import normals_of_small_variation
 from beltrami.diffusion.smoothing import shares_of
@@ -19,6 +18,7 @@ from beltrami.diffusion.vertex_update import fit_to_normals
 from beltrami.diffusion.windowed_sinc import filter_rows
 from beltrami.errors import BeltramiError
 from beltrami.mesh.mesh import Mesh
+from beltrami.solvers.locality import LocalRows, local_rows
 
 _VARIATION_ROUNDS = 100
 _TAIL = 1e-4  # of the gain, that the cut series of a linear filter may leave out
