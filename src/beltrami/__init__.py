@@ -78,6 +78,7 @@ if TYPE_CHECKING:
     from beltrami.parameterization.certificate import certify as certify
     from beltrami.parameterization.distortion import Distortion as Distortion
     from beltrami.parameterization.distortion import distortion as distortion
+    from beltrami.parameterization.flatten import flatten as flatten
     from beltrami.parameterization.harmonic import harmonic as harmonic
     from beltrami.parameterization.parameterization import Parameterization as Parameterization
     from beltrami.parameterization.parameterize import parameterize as parameterize
@@ -175,6 +176,7 @@ _HOME = {
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
     "filter": "spectrum.filtering",
+    "flatten": "parameterization.flatten",
     "fourier_basis": "spectrum.fourier_basis",
     "functional_map": "spectrum.functional_map",
     "functional_map_from_points": "spectrum.correspondence",

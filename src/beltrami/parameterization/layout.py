@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from beltrami._arrays import Floats, Integers
+from beltrami._arrays import Booleans, Floats, Integers
 from beltrami.mesh.mesh import Mesh
 
 _GAP = 0.05  # between neighbours, over the widest
@@ -45,3 +45,11 @@ def side_by_side(mesh: Mesh, uv: Floats, labels: Integers) -> Floats:
     starts = np.cumsum(widths + _GAP * widths.max()) - widths
     placed[:, 0] += (starts - starts[0] + left[0] - left)[label]
     return placed
+
+
+def part_of(mesh: Mesh, faces: Booleans) -> tuple[Mesh, Integers]:
+    """Return the mesh of some faces, and the number in the whole of each of its vertices."""
+    if faces.all():
+        return mesh, np.arange(mesh.n_vertices)
+    number, local = np.unique(mesh.faces[faces], return_inverse=True)
+    return Mesh(mesh.vertices[number], local.reshape(-1, 3)), number

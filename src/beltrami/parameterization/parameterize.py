@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, Integers, read_only
+from beltrami._arrays import Booleans, Floats, Integers, read_only
 from beltrami.errors import MeshError, NotADiskError, check_name
 from beltrami.mesh.cut import Cut, cut_along, edges_between, shortest_paths
 from beltrami.mesh.mesh import Mesh
@@ -16,7 +16,7 @@ from beltrami.operators.soundness import refuse_unreferenced, require_sound
 from beltrami.operators.weights import Weigher, edge_weights
 from beltrami.parameterization.boundary import Curve, place_boundary, refuse_dividing_edges
 from beltrami.parameterization.harmonic import solve_harmonic
-from beltrami.parameterization.layout import side_by_side
+from beltrami.parameterization.layout import part_of, side_by_side
 from beltrami.parameterization.parameterization import Parameterization, certified
 from beltrami.parameterization.reweighting import Step, assess, reweighted
 
@@ -149,10 +149,10 @@ def _as_it_is(mesh: Mesh) -> Cut:
 
 
 def _mapped(
-    current: Cut, uv: Floats, faces: Integers, asked: _Request, seams: int, *, rescue: bool
+    current: Cut, uv: Floats, faces: Booleans, asked: _Request, seams: int, *, rescue: bool
 ) -> tuple[Cut, Floats]:
     """Map one component; return the mesh with the seams that it needed, and all positions."""
-    part, number = _part(current.mesh, faces)
+    part, number = part_of(current.mesh, faces)
     best = _solved(part, number, asked)
     tries = 0
     while True:
@@ -163,7 +163,7 @@ def _mapped(
         found = []
         for seam in _seams(part, best):
             longer = _extended(current, number[seam])
-            pieces = _part(longer.mesh, faces)
+            pieces = part_of(longer.mesh, faces)
             found.append((_solved(*pieces, asked), longer, *pieces))
         if not found:
             break
@@ -176,14 +176,6 @@ def _mapped(
     uv = np.concatenate([uv, np.zeros((added, 2))])
     uv[number] = best.uv
     return current, uv
-
-
-def _part(mesh: Mesh, faces: Integers) -> tuple[Mesh, Integers]:
-    """Return the mesh of some faces, and the number in the whole of each of its vertices."""
-    if faces.all():
-        return mesh, np.arange(mesh.n_vertices)
-    number, local = np.unique(mesh.faces[faces], return_inverse=True)
-    return Mesh(mesh.vertices[number], local.reshape(-1, 3)), number
 
 
 def _solved(part: Mesh, number: Integers, asked: _Request) -> Step:
