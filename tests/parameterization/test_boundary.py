@@ -152,3 +152,25 @@ def test_vertices_at_the_same_place_do_not_stay_there():
     mesh = Mesh(x, [[0, 1, 4], [2, 3, 4], [3, 0, 4], [1, 2, 4]])
     placed = place_boundary(mesh, np.array([0, 1, 2, 3]))
     assert steps_between(placed).min() > 0
+
+
+@pytest.mark.chapter("T21", "P73")
+def test_bent_sides_are_strictly_convex_and_no_edge_divides_them():
+    mesh = open_()
+    (loop,) = mesh.boundary_loops
+    with pytest.raises(BoundaryCurveError, match="bulge"):
+        parameterize(mesh, boundary=5)
+    psi = parameterize(mesh, boundary=5, bulge=0.01)
+    assert psi.is_bijective
+    straight = place_boundary(mesh, loop, 5)
+    bent = place_boundary(mesh, loop, 5, bulge=0.01)
+    away = np.linalg.norm(bent - straight, axis=1)
+    side = 2 * np.sin(np.pi / 5)
+    assert 0.008 * side < away.max() <= 0.01 * side
+    assert np.count_nonzero(away < 1e-15) == 5  # the corners stay
+    assert (np.linalg.norm(bent, axis=1) >= np.linalg.norm(straight, axis=1)).all()
+    for bulge in (-0.1, 0.2, np.nan):
+        with pytest.raises(BoundaryCurveError):
+            place_boundary(mesh, loop, 5, bulge=bulge)
+    with pytest.raises(BoundaryCurveError, match="turn left"):  # corners of almost 180 degrees
+        place_boundary(mesh, loop, 20, bulge=0.1)

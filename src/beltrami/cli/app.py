@@ -7,14 +7,17 @@ from typing import Annotated
 import typer
 
 from beltrami.cli.curvature import curvature
+from beltrami.cli.cut import cut
 from beltrami.cli.denoise import denoise
 from beltrami.cli.descriptors import descriptors
 from beltrami.cli.endings import ending_well
 from beltrami.cli.filter import filter as filter_verb
+from beltrami.cli.flatten import flatten
 from beltrami.cli.geodesics import geodesics
 from beltrami.cli.heat import heat
 from beltrami.cli.info import info
 from beltrami.cli.integrate import integrate
+from beltrami.cli.parameterize import parameterize
 from beltrami.cli.regularize import regularize
 from beltrami.cli.render import render
 from beltrami.cli.repair import repair
@@ -45,6 +48,9 @@ for verb in (
     integrate,
     spectrum,
     descriptors,
+    cut,
+    parameterize,
+    flatten,
     render,
     tour,
 ):

@@ -16,6 +16,7 @@ from beltrami.parameterization.predicates import orientation
 Curve: TypeAlias = str | int | ArrayLike
 CURVES = ("circle", "square")
 SPACINGS = ("arclength", "uniform")
+_LARGEST_BULGE = 0.1
 _LEAST_STEP = 1e-6  # of the mean one: vertices at the same place do not stay there
 
 
@@ -26,6 +27,7 @@ def place_boundary(
     *,
     spacing: str = "arclength",
     corners: ArrayLike | None = None,
+    bulge: float = 0.0,
 ) -> Floats:
     r"""Return the (b, 2) positions :math:`\psi^0` of a boundary loop on a convex curve (l. 673).
 
@@ -46,6 +48,9 @@ def place_boundary(
     corners
         The k vertices of the loop that go to the corners, in order; by default corners divide the
         loop as they divide the polygon, from the first vertex of the loop on.
+    bulge
+        Bend the sides outwards, by this part of their length in the middle: a little (0.01) makes
+        the curve strictly convex, so that no edge can divide a side (E89).
 
     Raises
     ------
@@ -75,7 +80,12 @@ def place_boundary(
         return np.stack([np.cos(turn), np.sin(turn)], axis=1)
     polygon = corners_of(curve)
     at = _corner_places(loop, steps, polygon, corners)
-    return _along(polygon, at, steps)
+    if not 0 <= bulge <= _LARGEST_BULGE:
+        raise BoundaryCurveError(f"a bulge is from 0 to {_LARGEST_BULGE}, not {bulge}")
+    placed = _along(polygon, at, steps, bulge)
+    if bulge > 0:
+        require_convex(placed)
+    return placed
 
 
 def corners_of(curve: Curve) -> Floats:
@@ -141,15 +151,18 @@ def _corner_places(
     return at
 
 
-def _along(polygon: Floats, at: Integers, steps: Floats) -> Floats:
-    """Divide each side between the vertices from its corner to the next."""
+def _along(polygon: Floats, at: Integers, steps: Floats, bulge: float) -> Floats:
+    """Divide each side, or the parabola on it, between its vertices."""
     b = len(steps)
     placed = np.empty((b, 2))
     for q in range(len(polygon)):
         own = (at[q] + np.arange((at[(q + 1) % len(at)] - at[q]) % b)) % b
         share = (np.cumsum(steps[own]) - steps[own]) / steps[own].sum()
         start, end = polygon[q], polygon[(q + 1) % len(polygon)]
+        outwards = np.array([end[1] - start[1], start[0] - end[0]])
+        height = 4 * bulge * share * (1 - share)
         placed[own] = (1 - share)[:, None] * start + share[:, None] * end
+        placed[own] += height[:, None] * outwards
     return placed
 
 
@@ -186,5 +199,6 @@ def refuse_dividing_edges(mesh: Mesh, loop: Integers, placed: Floats) -> None:
             "inner edges have both ends on one straight side of the boundary curve, and what they "
             "cut off would get no area",
             edges=inner[common],
-            remedy='Take boundary="circle", or place corners= between their ends.',
+            remedy='Take boundary="circle", bend the sides a little (bulge=0.01), or place corners '
+            "between their ends.",
         )

@@ -125,19 +125,34 @@ def measured(mesh: Mesh, x: Floats) -> Distortion:
     return Distortion(read_only(singular_values(*jacobians(mesh, x))), mesh.face_areas)
 
 
-def jacobians(mesh: Mesh, x: Floats) -> tuple[Floats, Floats]:
-    """Return the (m, 2) derivatives of the map along two orthonormal directions of each face."""
+def slopes(mesh: Mesh) -> Floats:
+    """Return (m, 3, 2): the gradient of each corner's hat function, in a frame of its face.
+
+    The frame has its first direction along the first side, and the orientation of the face. The
+    unit is 1/length.
+    """
     scaled, unit = well_scaled(mesh.vertices)
     positions, corners = in_space(scaled, mesh.faces)
     u = positions[corners[:, 1]] - positions[corners[:, 0]]
     v = positions[corners[:, 2]] - positions[corners[:, 0]]
     length = np.linalg.norm(u, axis=1)
     height = np.linalg.norm(np.cross(u, v), axis=1) / length
+    slant = (u * v).sum(axis=1) / length**2
+    along = np.stack([-1 / length, 1 / length, np.zeros(len(u))], axis=1)
+    across = np.stack([slant - 1, -slant, np.ones(len(u))], axis=1) / height[:, None]
+    return np.stack([along, across], axis=2) / unit
+
+
+def jacobians(mesh: Mesh, x: Floats) -> tuple[Floats, Floats]:
+    """Return the (m, 2) derivatives of the map along the two directions of ``slopes``.
+
+    Differences come first, so that a map of a tiny region far from 0 keeps its digits.
+    """
+    g = slopes(mesh)
     p = x[mesh.faces[:, 1]] - x[mesh.faces[:, 0]]
     q = x[mesh.faces[:, 2]] - x[mesh.faces[:, 0]]
-    along = p / length[:, None]
-    slant = (u * v).sum(axis=1) / length
-    return along / unit, (q - along * slant[:, None]) / height[:, None] / unit
+    a, b = (p * g[:, 1, c, None] + q * g[:, 2, c, None] for c in range(2))
+    return a, b
 
 
 def singular_values(a: Floats, b: Floats) -> Floats:

@@ -18,10 +18,12 @@ from beltrami.parameterization.boundary import Curve, place_boundary, refuse_div
 from beltrami.parameterization.harmonic import solve_harmonic
 from beltrami.parameterization.layout import part_of, side_by_side
 from beltrami.parameterization.parameterization import Parameterization, certified
+from beltrami.parameterization.relaxation import relax
 from beltrami.parameterization.reweighting import Step, assess, reweighted
 
-METHODS = ("auto", "tutte")
+METHODS = ("auto", "tutte", "free")
 _STEPS = 20  # of reweighting, at most
+_RELAXATIONS = 50  # steps of it, at most
 _RESCUES = 8  # seams to be tried where a map folds
 _WORTH = 0.95  # a seam is kept if it lowers the distortion to this part
 
@@ -35,6 +37,7 @@ class _Request:
     boundary: Curve
     spacing: str
     corners: ArrayLike | None
+    bulge: float
 
 
 def parameterize(
@@ -45,6 +48,7 @@ def parameterize(
     *,
     spacing: str = "arclength",
     corners: ArrayLike | None = None,
+    bulge: float = 0.0,
     cut: bool = True,
     seams: int = 0,
     strict: bool = True,
@@ -64,12 +68,14 @@ def parameterize(
         Any oriented surface. What is not a disk is cut into one by ``cut_to_disk``.
     method
         ``"auto"``: weights are corrected until the distortion stops falling (see
-        ``reweighted``); ``"tutte"``: one solve with the weights as they are.
+        ``reweighted``); ``"tutte"``: one solve with the weights as they are; ``"free"``: then let
+        the boundary go, and lower the symmetric Dirichlet energy as far as it falls without a
+        fold or a crossing of the boundary (see ``relax``): the least distortion, in the unit of
+        length of the mesh.
     weights
         ``"combinatorial"``, ``"distance"``, ``"mean_value"``, ``"clamped"`` or a callable: all
         positive. ``"cotangent"`` is negative where two angles add to more than π, and may fold
-        (E90). By default ``"clamped"`` for the method ``"auto"``, ``"mean_value"`` for
-        ``"tutte"``.
+        (E90). By default ``"mean_value"`` for the method ``"tutte"``, else ``"clamped"``.
     boundary
         ``"circle"``, ``"square"``, a number of sides or the corners of a convex polygon: see
         ``place_boundary``.
@@ -77,6 +83,9 @@ def parameterize(
         ``"arclength"`` or ``"uniform"``.
     corners
         Vertices of the boundary that go to the corners of the polygon.
+    bulge
+        Bend its sides outwards, by this part of their length: where inner edges have both ends on
+        one side, 0.01 helps.
     cut
         False refuses what is not a disk, rather than cutting it.
     seams
@@ -122,8 +131,8 @@ def parameterize(
         refuse_unreferenced(mesh.topology)
     if seams < 0:
         raise MeshError(f"the number of seams cannot be {seams}")
-    kind = weights if weights is not None else "clamped" if method == "auto" else "mean_value"
-    asked = _Request(method, kind, boundary, spacing, corners)
+    kind = weights if weights is not None else "mean_value" if method == "tutte" else "clamped"
+    asked = _Request(method, kind, boundary, spacing, corners, bulge)
     current = cut_to_disk(mesh) if cut else _as_it_is(mesh)
     labels = current.mesh.components()
     uv = np.zeros((current.mesh.n_vertices, 2))
@@ -131,8 +140,8 @@ def parameterize(
         faces = labels == component
         current, uv = _mapped(current, uv, faces, asked, seams if cut else 0, rescue=cut)
     uv = side_by_side(current.mesh, uv, labels)
-    how = "reweighted" if method == "auto" else "Tutte"
-    words = f"{how} {kind if isinstance(kind, str) else 'given'} weights"
+    how = {"auto": "reweighted", "tutte": "Tutte,", "free": "free boundary, from reweighted"}
+    words = f"{how[method]} {kind if isinstance(kind, str) else 'given'} weights"
     return certified(mesh, current, uv, words, strict=strict)
 
 
@@ -156,7 +165,7 @@ def _mapped(
     best = _solved(part, number, asked)
     tries = 0
     while True:
-        folded = best.flips > 0 and rescue and asked.method == "auto"
+        folded = best.flips > 0 and rescue and asked.method != "tutte"
         if tries >= (max(_RESCUES, seams) if folded else seams):
             break
         tries += 1
@@ -174,7 +183,7 @@ def _mapped(
         current, part, number, best = longer, new_part, new_number, step
     added = current.mesh.n_vertices - len(uv)
     uv = np.concatenate([uv, np.zeros((added, 2))])
-    uv[number] = best.uv
+    uv[number] = relax(part, best.uv, _RELAXATIONS)[0] if asked.method == "free" else best.uv
     return current, uv
 
 
@@ -186,7 +195,9 @@ def _solved(part: Mesh, number: Integers, asked: _Request) -> Step:
         place = {int(v): q for q, v in enumerate(number)}
         wanted = np.asarray(corners).ravel().tolist()
         corners = np.array([place.get(int(v), -1) for v in wanted])
-    placed = place_boundary(part, loop, asked.boundary, spacing=asked.spacing, corners=corners)
+    placed = place_boundary(
+        part, loop, asked.boundary, spacing=asked.spacing, corners=corners, bulge=asked.bulge
+    )
     if not (isinstance(asked.boundary, str) and asked.boundary == "circle"):
         refuse_dividing_edges(part, loop, placed)
     W = edge_weights(part, asked.weights)
