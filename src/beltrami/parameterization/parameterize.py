@@ -22,7 +22,7 @@ from beltrami.parameterization.relaxation import relax
 from beltrami.parameterization.reweighting import Step, assess, reweighted
 
 METHODS = ("auto", "tutte", "free")
-_STEPS = 20  # of reweighting, at most
+_STEPS = 30  # of reweighting, at most
 _RELAXATIONS = 50  # steps of it, at most
 _RESCUES = 8  # seams to be tried where a map folds
 _WORTH = 0.95  # a seam is kept if it lowers the distortion to this part

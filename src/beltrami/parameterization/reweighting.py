@@ -14,6 +14,7 @@ from beltrami.parameterization.distortion import Distortion, measured
 from beltrami.parameterization.harmonic import solve_harmonic
 from beltrami.parameterization.predicates import orientation
 
+_PATIENCE = 3  # steps without a better map before the exponent is halved
 _LEAST_EXPONENT = 0.1  # of the stretch: below it, the map is as good as it gets
 _LARGEST = np.log(1e6)  # of the logarithms of stretches, about their median
 
@@ -44,8 +45,8 @@ def reweighted(
     Yoshizawa, A. Belyaev, H.-P. Seidel, A fast and simple stretch-minimizing mesh
     parameterization, 2004, where η = 1). Weights stay positive: each map is within the theorem of
     Tutte and Floater, and only rounding can fold it. While it does, the mean is that of the
-    logarithms, which a few wild faces do not rule. Where a step does not make the map better it
-    is taken back and tried with η halved, four times in a row at most.
+    logarithms, which a few wild faces do not rule. After three steps with η = 1 without a
+    better map it goes back to the best one, and on from there with η = 1/2, 1/4, 1/8.
 
     Rows of W may be scaled as one likes: with :math:`w_{ij} / (\sigma_i \sigma_j)^\eta` symmetric
     weights stay symmetric.
@@ -53,18 +54,21 @@ def reweighted(
     n = mesh.n_vertices
     i, j = np.repeat(np.arange(n), np.diff(W.indptr)), W.indices
     total = np.zeros(n)  # logarithms of the products of all stretches
-    start = change = total
     best: Step | None = None
-    exponent, done = 1.0, 0
+    exponent, failed, done = 1.0, 0, 0
     while done < steps and exponent > _LEAST_EXPONENT:
         weights = W.data * np.exp(-(total[i] + total[j]))
         scaled = csr_array((weights, W.indices, W.indptr), shape=W.shape)
         step = assess(mesh, solve_harmonic(scaled, loop, placed, mesh.vertices))
         done += 1
+        here = total, _log_stretch(mesh, step)
         if best is None or step.rank < best.rank:
-            best, start, change = step, total, _log_stretch(mesh, step)
+            best, kept, failed = step, here, 0
         else:
+            failed += 1
+        if failed == _PATIENCE or (failed and exponent < 1):
             exponent /= 2
+        start, change = here if exponent == 1 else kept
         total = start + exponent * change
         total -= total.mean()
     if best is None:
