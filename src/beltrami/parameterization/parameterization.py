@@ -5,12 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from beltrami._arrays import Floats, Integers, read_only
-from beltrami.errors import FoldedMapError
+import numpy as np
+from numpy.typing import ArrayLike
+
+from beltrami._arrays import Floats, Integers, as_function, as_indices, read_only
+from beltrami.errors import DimensionError, FoldedMapError
 from beltrami.mesh.cut import Cut
 from beltrami.mesh.mesh import Mesh
-from beltrami.parameterization.certificate import Certificate, certify
+from beltrami.parameterization.certificate import Certificate, as_map, certify
 from beltrami.parameterization.distortion import Distortion, measured
+from beltrami.parameterization.location import locate
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -69,6 +73,45 @@ class Parameterization:
     def distortion(self) -> Distortion:
         """What the map does to lengths, angles and areas, for each face and in the mean."""
         return measured(self.mesh, self.uv)
+
+    def image(self, faces: ArrayLike, barycentric: ArrayLike) -> Floats:
+        r"""Return :math:`\psi` at points inside faces: the linear interpolation of ``uv``.
+
+        Chapter items: P70.
+
+        Parameters
+        ----------
+        faces
+            (q,) indices of faces.
+        barycentric
+            (q, 3) coordinates in them, which add to 1.
+        """
+        at = as_indices(faces, self.mesh.n_faces, "faces")
+        weights = as_function(barycentric, len(at), "the barycentric coordinates")
+        if weights.shape != (len(at), 3):
+            raise DimensionError(f"barycentric coordinates are ({len(at)}, 3)")
+        return np.asarray(np.einsum("qc,qci->qi", weights, self.uv[self.mesh.faces[at]]))
+
+    def original(self, points: ArrayLike) -> tuple[Integers, Floats]:
+        r"""Return :math:`\psi^{-1}` at points of the plane: faces and barycentric coordinates.
+
+        -1 and NaN outside the image. See ``locate``; where the map is no bijection, one of the
+        originals.
+
+        Chapter items: U38, P70.
+
+        Examples
+        --------
+        >>> from beltrami.mesh.shapes import icosphere
+        >>> from beltrami.parameterization.parameterize import parameterize
+        >>> psi = parameterize(icosphere(2))
+        >>> faces, inside = psi.original([[0.25, 0.5], [2.0, 2.0]])
+        >>> psi.image(faces[:1], inside[:1]).round(12).tolist(), int(faces[1])
+        ([[0.25, 0.5]], -1)
+        """
+        given = np.asarray(points, dtype=np.float64)
+        x = as_map(given, len(given))
+        return locate(self.uv[self.mesh.faces], x)
 
     @cached_property
     def textured(self) -> Mesh:
