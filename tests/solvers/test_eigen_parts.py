@@ -90,9 +90,9 @@ def test_columns_across_panels():
     columns.subtract(W, S[:200, :7], 100)
     assert np.allclose(W, Z - Q[:, 100:300] @ S[:200, :7])
     assert np.allclose(columns.times(S, np.float64), Q @ S)
-    columns.put(120, Q[:, :20])
-    assert np.allclose(columns.transposed_times(Z, 110, 150)[10:30], Q[:, :20].T @ Z)
-    columns.put(120, Q[:, 120:140])
+    columns.replace_last(Q[:, :30])
+    assert np.allclose(columns.transposed_times(Z, 290, 330)[10:], Q[:, :30].T @ Z)
+    columns.replace_last(Q[:, 300:])
     columns.contract(S)
     assert columns.count == 11
     assert np.allclose(columns.transposed_times(Z, 0, 11), (Q @ S).T @ Z)
