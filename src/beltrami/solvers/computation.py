@@ -12,8 +12,8 @@ class Computation:
     Attributes
     ----------
     method
-        ``"dense"`` (LAPACK), ``"lanczos"``, ``"slices"`` (Lanczos in each), ``"kernel"`` (there
-        was nothing to compute), or ``"given"``.
+        ``"dense"`` (LAPACK; for n <= 2500 also where Lanczos does not arrive), ``"lanczos"``,
+        ``"slices"`` (Lanczos in each), ``"kernel"`` (nothing to compute), or ``"given"``.
     precision
         ``"float32"`` or ``"float64"`` inside; what comes out is float64, polished.
     shift
