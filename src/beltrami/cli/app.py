@@ -19,6 +19,7 @@ from beltrami.cli.regularize import regularize
 from beltrami.cli.render import render
 from beltrami.cli.repair import repair
 from beltrami.cli.smooth import smooth
+from beltrami.cli.spectrum import spectrum
 from beltrami.cli.tour import tour
 from beltrami.cli.wave import wave
 
@@ -42,6 +43,7 @@ for verb in (
     curvature,
     geodesics,
     integrate,
+    spectrum,
     descriptors,
     render,
     tour,
