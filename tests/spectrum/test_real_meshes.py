@@ -12,13 +12,6 @@ pytestmark = pytest.mark.meshes
 
 FOLDER = os.environ.get("BELTRAMI_MESHES")
 NAMES = ["beetle.obj", "camel-head.off", "face.obj", "featuretype.STL", "torus.obj"]
-    "beetle.obj",
-    "camel-head.off",
-    "face.obj",
-    "featuretype.STL",
-    "fertility.off",
-    "torus.obj",
-]
 
 
 @pytest.mark.parametrize("name", NAMES)
