@@ -26,7 +26,7 @@ class Computation:
         The largest residual before each pass of polishing, and after the last.
     counted_within
         All eigenvalues nearer than this to where we looked are here, by count of inertia; 0 if
-        nothing was counted.
+        nothing was counted, and where the kernel alone is much larger than what was wanted.
     seconds
         Wall-clock seconds of each stage: (name, seconds).
     """

@@ -33,7 +33,9 @@ def find(work: Work, certify: bool, clock: list[tuple[str, float]]) -> None:
     """
     pencil, kernel = work.pencil, work.pencil.kernel.shape[1]
     from_below = work.near <= 0
-    wanted = min(max(work.k - kernel, int(certify)) if from_below else work.k, pencil.n - kernel)
+    least = int(certify and not pencil.kernel_goes_on(work.k))
+    wanted = max(work.k - kernel, least) if from_below else work.k
+    wanted = min(wanted, pencil.n - kernel)
     if wanted <= 0:
         return
     if from_below and wanted > SLICED and pencil.n > LARGE:
