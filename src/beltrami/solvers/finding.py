@@ -17,7 +17,7 @@ from beltrami.solvers.slices import SLICE, TIGHT, extend_by_slices
 from beltrami.solvers.work import Work
 
 SMALL = 500  # unknowns up to which LAPACK is as fast
-SLICED = 1200  # eigenpairs beyond which the spectrum is cut into slices
+SLICED = 1500  # eigenpairs beyond which the spectrum is cut into slices
 LARGE = 6000  # unknowns up to which LAPACK does that as well
 SINGLE = 1e-9  # tolerances below it need float64 throughout
 _BEARABLE = 2500  # unknowns up to which it takes over where Lanczos does not arrive
