@@ -30,21 +30,16 @@ def order_leaf(
     inner, outer = np.zeros(m, np.uint64), np.zeros(m, np.uint64)
     _join(indptr, indices, order, low, high, slot, inner, outer)
     place, below = np.empty(m, np.int64), np.empty(m, np.int64)
-    _eliminate(inner, outer, place, below)
-    column = np.empty(m, np.int64)  # eliminated k-th
-    for i in range(m):
-        column[place[i]] = i
-    parent = np.full(m, -1, np.int64)  # all by their turn from here on
+    column = _eliminate(inner, outer, place, below)
+    parent, columns, top = np.full(m, -1), np.ones(m, np.int64), np.arange(m)
     for k in range(m):
-        later = inner[column[k]]
-        first = m
+        later, parent[k] = inner[column[k]], m
         while later:
-            first = min(first, place[lowest_bit(later)])
+            parent[k] = min(parent[k], place[lowest_bit(later)])
             later &= later - np.uint64(1)
-        if first < m:
-            parent[k] = first
-    top = _merge(parent, below[column])
-    return _write(order, low, column, parent, top, ends, parents)
+    tree = np.full((m + 1, 2), -1)  # first child and next sibling; m is the parent of the roots
+    _merge(parent, below[column], columns, top, tree)
+    return _write(order, low, column, parent, columns, top, tree, ends, parents)
 
 
 @kernel
@@ -92,13 +87,13 @@ def _join(
 
 
 @kernel
-def _eliminate(inner: Any, outer: Any, place: Any, below: Any) -> None:
+def _eliminate(inner: Any, outer: Any, place: Any, below: Any) -> Any:
     """Eliminate where the degree is least: ``place``, and ``below`` the degree at that time.
 
-    ``inner`` and ``outer`` become the rows of each column.
+    ``inner`` and ``outer`` become the rows of each column. Returns the unknowns by their place.
     """
     one, m = np.uint64(1), inner.size
-    degree = np.empty(m, np.int64)
+    degree, column = np.empty(m, np.int64), np.empty(m, np.int64)
     for i in range(m):
         degree[i] = count_bits(inner[i]) + count_bits(outer[i])
         place[i] = -1
@@ -107,7 +102,7 @@ def _eliminate(inner: Any, outer: Any, place: Any, below: Any) -> None:
         for j in range(m):
             if degree[j] < least:
                 least, i = degree[j], j
-        place[i], below[i], degree[i] = turn, least, 1 << 40
+        place[i], below[i], degree[i], column[turn] = turn, least, 1 << 40, i
         rows, beyond = inner[i], outer[i]
         rest = rows
         while rest:
@@ -116,70 +111,82 @@ def _eliminate(inner: Any, outer: Any, place: Any, below: Any) -> None:
             inner[j] = (inner[j] | rows) & ~((one << np.uint64(i)) | (one << np.uint64(j)))
             outer[j] |= beyond
             degree[j] = count_bits(inner[j]) + count_bits(outer[j])
+    return column
 
 
 @kernel
-def _merge(parent: Any, below: Any) -> Any:
-    """Join columns to blocks: return the last column of the block of each.
+def _merge(parent: Any, below: Any, columns: Any, top: Any, tree: Any) -> None:
+    """Join columns to blocks: ``top`` becomes the last column of the block of each.
 
     A block joins its parent where that stores few zeros; ``below`` is the degree of each column.
+    The number of ``columns``, the parent and the ``tree`` of a block stand at its last column.
     """
     m = parent.size
-    top, columns = np.arange(m), np.ones(m, np.int64)
     for p in range(m):
         while True:
-            fewest, best = _ZEROS + 1, -1
-            for c in range(p):
-                if top[c] == c and parent[c] == p:
-                    zeros = columns[c] * (columns[p] + below[p] - below[c])
-                    if zeros < fewest:
-                        fewest, best = zeros, c
+            fewest, best, before_best = _ZEROS + 1, -1, -1
+            before, c = -1, tree[p, 0]
+            while c >= 0:
+                zeros = columns[c] * (columns[p] + below[p] - below[c])
+                if zeros < fewest:
+                    fewest, best, before_best = zeros, c, before
+                before, c = c, tree[c, 1]
             if best < 0:
                 break
+            if before_best < 0:
+                tree[p, 0] = tree[best, 1]
+            else:
+                tree[before_best, 1] = tree[best, 1]
             columns[p] += columns[best]
-            for c in range(best + 1):
-                if top[c] == best:
-                    top[c] = p
-                if top[c] == c and parent[c] == best:
-                    parent[c] = p
-            parent[best] = -2  # no block any more
-    return top
+            top[best] = p
+            c = tree[best, 0]
+            while c >= 0:
+                after = tree[c, 1]
+                parent[c], tree[c, 1], tree[p, 0] = p, tree[p, 0], c
+                c = after
+        tree[p, 1], tree[parent[p], 0] = tree[parent[p], 0], p
+    for c in range(m - 1, -1, -1):
+        top[c] = top[top[c]]
 
 
 @kernel
 def _write(
-    order: Any, low: int, column: Any, parent: Any, top: Any, ends: Any, parents: Any
+    order: Any,
+    low: int,
+    column: Any,
+    parent: Any,
+    columns: Any,
+    top: Any,
+    tree: Any,
+    ends: Any,
+    parents: Any,
 ) -> Any:
     """Write the blocks one after the other, each after its children; return their number."""
     m = column.size
-    old, number = np.empty(m, order.dtype), np.full(m, -1, np.int64)
-    for k in range(m):
-        old[k] = order[low + column[k]]
-    waiting, path = np.full(m, -1, np.int64), 0
+    number, begin, path = np.empty(m + 1, np.int64), np.empty(m, np.int64), np.empty(m + 1, np.int64)
+    path[0], depth = m, 1
     count = end = 0
-    for root in range(m):
-        if top[root] != root or parent[root] != -1:
+    while depth:
+        block = path[depth - 1]
+        child = tree[block, 0]
+        if child >= 0:
+            tree[block, 0] = tree[child, 1]
+            path[depth] = child
+            depth += 1
             continue
-        waiting[0], path = root, 1
-        while path:
-            block = waiting[path - 1]
-            child = block - 1  # the next of its children, from the last on, that is not written
-            while child >= 0 and not (
-                top[child] == child and parent[child] == block and number[child] < 0
-            ):
-                child -= 1
-            if child >= 0:
-                waiting[path] = child
-                path += 1
-                continue
-            for k in range(block + 1):
-                if top[k] == block:
-                    order[low + end] = old[k]
-                    end += 1
-            ends[count], number[block] = end, count
+        depth -= 1
+        number[block] = count
+        if block < m:
+            begin[block] = end
+            end += columns[block]
+            ends[count], parents[count] = end, parent[block]
             count += 1
-            path -= 1
+    number[m] = -1
+    for k in range(count):
+        parents[k] = number[parents[k]]
+    old = order[low : low + m].copy()
     for k in range(m):
-        if number[k] >= 0:
-            parents[number[k]] = number[parent[k]] if parent[k] >= 0 else -1
+        to = begin[top[k]]
+        order[low + to] = old[column[k]]
+        begin[top[k]] += 1
     return count
