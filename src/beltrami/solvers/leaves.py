@@ -163,7 +163,11 @@ def _write(
 ) -> Any:
     """Write the blocks one after the other, each after its children; return their number."""
     m = column.size
-    number, begin, path = np.empty(m + 1, np.int64), np.empty(m, np.int64), np.empty(m + 1, np.int64)
+    number, begin, path = (
+        np.empty(m + 1, np.int64),
+        np.empty(m, np.int64),
+        np.empty(m + 1, np.int64),
+    )
     path[0], depth = m, 1
     count = end = 0
     while depth:
