@@ -14,6 +14,8 @@ DISTRIBUTIONS = (
     "libigl",
     "meshio",
     "potpourri3d",
+    "pyamg",
+    "pygsp",
     "pymeshlab",
     "pyvista",
     "robust_laplacian",

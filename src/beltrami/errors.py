@@ -10,12 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
+    "ApproximationError",
     "BeltramiError",
     "ConvergenceError",
     "DegenerateFaceError",
     "DimensionError",
     "EmptyMeshError",
     "FileFormatError",
+    "IncompatibleError",
     "MeshError",
     "MissingExtraError",
     "NegativeWeightError",
@@ -29,11 +31,13 @@ __all__ = [
     "SingularMatrixError",
     "StepTooLongError",
     "SurfaceError",
+    "TruncationError",
     "UnknownNameError",
     "UnreferencedVertexError",
 ]
 
 _SHOWN = 5
+_LONGEST = 60
 
 
 def _named(kind: str, indices: NDArray[Any]) -> str:
@@ -41,6 +45,18 @@ def _named(kind: str, indices: NDArray[Any]) -> str:
     shown = ", ".join(str(i if np.ndim(i) == 0 else tuple(i)) for i in indices[:_SHOWN].tolist())
     more = len(indices) - _SHOWN
     return f"{kind} {shown}" + (f" and {more} more" if more > 0 else "")
+
+
+def shown(value: object) -> str:
+    """Write what a user gave in one short line, for a message.
+
+    Examples
+    --------
+    >>> shown(np.eye(2)), shown("x" * 99)
+    ('array([[1., 0.], [0., 1.]])', "'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...")
+    """
+    text = " ".join(repr(value).split())
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."
 
 
 def _rebuild(cls: type[BeltramiError], args: tuple[Any, ...], state: dict[str, Any]) -> Any:
@@ -126,6 +142,10 @@ class NegativeWeightError(MeshError):
     """The operation needs non-negative weights; ``edges`` lists those that are not."""
 
 
+class IncompatibleError(MeshError):
+    """A Poisson problem without a solution; ``vertices`` has one of each component at fault."""
+
+
 class SurfaceError(BeltramiError, ValueError):
     """A parametric surface is not what the operation needs; ``parameters`` are the guilty (u, v).
 
@@ -167,6 +187,17 @@ class StepTooLongError(BeltramiError, ValueError):
         )
 
 
+class TruncationError(BeltramiError, ValueError):
+    """A basis leaves out more than was allowed: ``left_out`` of the norm of the function."""
+
+    def __init__(self, left_out: float, count: int) -> None:
+        self.left_out = left_out
+        super().__init__(
+            f"the {count} modes of the basis leave out up to {left_out:.2g} of the norm of the "
+            "result. Take more modes, another method, or a larger tolerance"
+        )
+
+
 class SingularMatrixError(BeltramiError, ValueError):
     """A matrix to factorise is singular (to working precision); ``rows`` are without a pivot."""
 
@@ -176,18 +207,34 @@ class SingularMatrixError(BeltramiError, ValueError):
 
 
 class NotPositiveDefiniteError(BeltramiError, ValueError):
-    """A matrix is not symmetric positive definite; ``rows`` show it."""
+    """A matrix is not symmetric positive definite; ``rows`` show it, where they are known."""
 
-    def __init__(self, rows: ArrayLike) -> None:
+    def __init__(
+        self,
+        rows: ArrayLike = (),
+        problem: str = "the matrix is not symmetric positive definite",
+        remedy: str = 'factorize(A, backend="superlu") takes every invertible matrix',
+    ) -> None:
         self.rows = np.asarray(rows, dtype=np.int64).reshape(-1)
-        super().__init__(
-            f"the matrix is not symmetric positive definite ({_named('rows', self.rows)}). "
-            'factorize(A, backend="superlu") takes every invertible matrix'
-        )
+        shown = f" ({_named('rows', self.rows)})" if len(self.rows) else ""
+        super().__init__(f"{problem}{shown}. {remedy}")
 
 
 class ConvergenceError(BeltramiError, RuntimeError):
-    """An iteration stopped before it reached its tolerance."""
+    """An iteration stopped before it reached its tolerance; ``residuals`` is its history."""
+
+    def __init__(self, problem: str, residuals: ArrayLike = ()) -> None:
+        self.residuals = np.asarray(residuals, dtype=np.float64)
+        super().__init__(problem)
+
+
+class ApproximationError(ConvergenceError):
+    """h(B⁻¹L) is not as near as wanted; ``estimate`` is the error, beside the largest |h|."""
+
+    def __init__(self, problem: str, estimate: float, remedy: str) -> None:
+        self.estimate = estimate
+        self.remedy = remedy
+        super().__init__(f"{problem}. {remedy}")
 
 
 class UnknownNameError(BeltramiError, ValueError):
@@ -199,7 +246,7 @@ class UnknownNameError(BeltramiError, ValueError):
         near = difflib.get_close_matches(str(name), self.choices, n=1)
         hint = f" Did you mean {near[0]!r}?" if near else ""
         listed = ", ".join(repr(choice) for choice in self.choices)
-        super().__init__(f"unknown {what} {name!r}: choose one of {listed}.{hint}")
+        super().__init__(f"unknown {what} {shown(name)}: choose one of {listed}.{hint}")
 
 
 class FileFormatError(BeltramiError, ValueError):
@@ -239,12 +286,7 @@ class MissingExtraError(BeltramiError, ImportError):
 
 
 def check_name(what: str, name: object, choices: Sequence[str]) -> str:
-    """Return ``name`` if it is one of ``choices``.
-
-    Raises
-    ------
-    UnknownNameError
-        If it is not; the message lists the choices and the nearest one.
+    """Return ``name`` if it is one of ``choices``; UnknownNameError, with the nearest, if not.
 
     Examples
     --------

@@ -15,6 +15,16 @@ CASES = {
         ("--method", "implicit", "--time", 0.01, "--mass", "consistent"),
         {"method": "implicit", "time": 0.01, "mass": "consistent"},
     ),
+    "taubin": (("--method", "taubin", "--pass-band", 0.2), {"method": "taubin", "pass_band": 0.2}),
+    "features": (("--features", 40), {"features": 40.0}),
+    "guided": (
+        ("--method", "guided_normals", "--contrast", 0.2),
+        {"method": "guided_normals", "contrast": 0.2},
+    ),
+    "tv": (
+        ("--method", "tv_normals", "--fidelity", 3),
+        {"method": "tv_normals", "fidelity": 3.0},
+    ),
     "volume": (("--keep", "volume"), {"keep": "volume"}),
 }
 
@@ -41,13 +51,15 @@ def test_a_function_is_smoothed_on_its_mesh(beltrami, sphere, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "code", "text"),
     [
-        (("--time", 1), 2, "--method implicit or explicit"),
-        (("--method", "implicit", "--step", 1, "--time", 1), 2, "--method averaging"),
+        (("--time", 1), 1, "'averaging' has no time; it has steps"),
+        (("--method", "implicit", "--step", 1, "--time", 1), 1, "'implicit' has no step"),
+        (("--method", "taubin", "--step", 1), 1, "the longest allowed is"),
         (("--method", "averging"), 1, "Did you mean 'averaging'?"),
         (("--weights", "cotangens"), 1, "Did you mean 'cotangent'?"),
         (("--step", 9), 1, "the longest allowed is"),
         (("--steps", -1), 2, "--steps"),
-        (("--data", "f.npy", "--keep", "volume"), 2, "--keep"),
+        (("--data", "f.npy", "--keep", "volume"), 2, "--data takes"),
+        (("--data", "f.npy", "--features", 30), 2, "--data takes"),
         (("--data", "f.npy", "--method", "implicit"), 2, "beltrami heat"),
     ],
 )

@@ -4,6 +4,7 @@ import pytest
 import dense_oracles as oracle
 from beltrami.diffusion.heat import heat
 from beltrami.diffusion.smooth_mesh import smooth_mesh
+from beltrami.diffusion.smoothing_methods import SMOOTHING_METHODS
 from beltrami.errors import (
     BeltramiError,
     NegativeWeightError,
@@ -22,6 +23,11 @@ CASES = {
     "explicit": {"method": "explicit", "time": 3.0, "mass": "degree"},
     "kept": {"steps": 3, "keep": "centroid"},
     "distance": {"weights": "distance", "steps": 4},
+    "taubin": {"method": "taubin", "steps": 6, "step": 0.4, "pass_band": 0.2},
+    "windowed_sinc": {"method": "windowed_sinc", "steps": 9, "weights": "distance"},
+    "features": {"steps": 3, "features": 40.0},
+    "curvature_flow": {"method": "curvature_flow", "time": 0.004, "steps": 2},
+    "conformal_flow": {"method": "conformal_flow", "time": 0.004, "steps": 2},
 }
 
 
@@ -155,12 +161,12 @@ def test_what_is_refused():
     mesh = MESHES["bad"]()
     with pytest.raises(UnknownNameError) as caught:
         smooth_mesh(mesh, "average")
-    assert caught.value.choices == ("averaging", "implicit", "explicit")
+    assert caught.value.choices == tuple(SMOOTHING_METHODS)
     with pytest.raises(UnknownNameError) as keep:
         smooth_mesh(MESHES["closed"](), keep="volumes")
     assert keep.value.choices == ("volume", "centroid")
-    for method in ("implicit", "explicit"):
-        with pytest.raises(BeltramiError, match="needs a time"):
+    for method in ("implicit", "explicit", "bilaplacian", "curvature_flow", "conformal_flow"):
+        with pytest.raises(BeltramiError, match="flows need a time"):
             smooth_mesh(mesh, method)
     for held in ({"hold": [1]}, {"hold_boundary": True}):
         with pytest.raises(BeltramiError, match="would move the vertices that are held"):
@@ -178,7 +184,7 @@ def test_what_is_refused():
 def test_options_of_another_method_are_not_ignored():
     """Nothing silent: a time for averaging, or a step for heat, does nothing and says so."""
     mesh = MESHES["closed"]()
-    with pytest.raises(BeltramiError):
+    with pytest.raises(BeltramiError, match="it has steps, step, weights, features"):
         smooth_mesh(mesh, "averaging", time=0.1)
     with pytest.raises(BeltramiError):
         smooth_mesh(mesh, "averaging", mass="voronoi")

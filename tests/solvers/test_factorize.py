@@ -92,8 +92,8 @@ def test_what_is_refused():
         factorize(A, coordinates=np.zeros((2, 3)))
     assert factorize(A, coordinates=np.zeros((3, 2))).n == 3
     with pytest.raises(UnknownNameError) as caught:
-        factorize(A, backend="cholmod")
-    assert caught.value.choices == ("auto", "cholesky", "ldl", "superlu")
+        factorize(A, backend="umfpack")
+    assert caught.value.choices[:4] == ("auto", "cholesky", "ldl", "superlu")
     assert factorize(A, backend="superlu").backend == "superlu"
     for value in (np.nan, np.inf):
         with pytest.raises(NonFiniteError):

@@ -16,20 +16,51 @@ def smooth(
     mesh: MeshFile,
     output: Output,
     method: Annotated[
-        str, typer.Option(help="averaging, or heat: implicit, explicit (with --time).")
+        str,
+        typer.Option(
+            help="averaging, taubin, windowed_sinc; with --time: implicit, explicit, bilaplacian, "
+            "curvature_flow, conformal_flow; keeping creases: bilateral_normals, guided_normals, "
+            "tv_normals."
+        ),
     ] = "averaging",
     steps: Annotated[
-        int | None, typer.Option(min=0, help="Rounds, or time steps.", show_default="10")
+        int | None,
+        typer.Option(min=0, help="Rounds, or time steps.", show_default="of the method"),
     ] = None,
     step: Annotated[
         float | None,
-        typer.Option(help="Of averaging: how far to the mean, 0 to 1.", show_default="1"),
+        typer.Option(help="How far to the mean, 0 to 1.", show_default="1; taubin: 0.5"),
+    ] = None,
+    pass_band: Annotated[
+        float | None,
+        typer.Option(
+            help="Of taubin and windowed_sinc: frequencies below it stay.", show_default="0.1"
+        ),
     ] = None,
     time: Time = None,
     weights: Weights = None,
     mass: Mass = None,
     data: Data = None,
     data_name: DataName = None,
+    features: Annotated[
+        float | None,
+        typer.Option(
+            metavar="DEGREES",
+            help="Smooth edges that bend more along themselves, and leave corners; not for flows.",
+            show_default=False,
+        ),
+    ] = None,
+    contrast: Annotated[
+        float | None,
+        typer.Option(
+            help="Of bilateral_ and guided_normals: normals that differ by more stay apart.",
+            show_default="0.35",
+        ),
+    ] = None,
+    fidelity: Annotated[
+        float | None,
+        typer.Option(help="Of tv_normals: more is nearer to the mesh.", show_default="1"),
+    ] = None,
     hold_boundary: HoldBoundary = False,
     keep: Annotated[
         str | None, typer.Option(help="volume or centroid.", show_default=False)
@@ -37,27 +68,24 @@ def smooth(
 ) -> None:
     """Smooth a mesh, or the function --data on it.
 
-    Averaging takes combinatorial weights unless told otherwise, heat cotangent ones.
+    Averages take combinatorial weights unless told otherwise, flows cotangent ones.
     """
     from beltrami.diffusion.smooth_mesh import smooth_mesh
     from beltrami.diffusion.smoothing import smooth as smooth_function
     from beltrami.io.registry import read_mesh, write_mesh
     from beltrami.operators.laplacian import laplacian
 
-    if method == "averaging" and (time is not None or mass is not None):
-        raise typer.BadParameter("--time and --mass go with --method implicit or explicit")
-    if method != "averaging" and step is not None:
-        raise typer.BadParameter("--step goes with --method averaging")
     if data is not None and method != "averaging":
         raise typer.BadParameter("a function is diffused by `beltrami heat`")
-    if data is not None and keep is not None:
-        raise typer.BadParameter("--keep is for meshes, not for --data")
+    others = (time, mass, pass_band, features, contrast, fidelity, keep)
+    if data is not None and any(option is not None for option in others):
+        raise typer.BadParameter("--data takes --steps, --step, --weights and --hold-boundary")
     (check_mesh_output if data is None else check_values_output)(output)
     with waiting(f"reading {mesh.name}"):
         read = read_mesh(mesh)
     if data is not None:
         values = read_data(data, read, data_name)
-        held = read.topology.boundary_edges.ravel() if hold_boundary else ()
+        held = read.topology.on_boundary if hold_boundary else ()
         with waiting("smoothing") as progress:
             pair = laplacian(read, "combinatorial" if weights is None else weights, "degree")
             rounds = 10 if steps is None else steps
@@ -72,9 +100,13 @@ def smooth(
             method,
             steps=steps,
             step=step,
+            pass_band=pass_band,
             time=time,
             weights=weights,
             mass=mass,
+            features=features,
+            contrast=contrast,
+            fidelity=fidelity,
             hold_boundary=hold_boundary,
             keep=keep,
             progress=progress,

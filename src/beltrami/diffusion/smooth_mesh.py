@@ -5,15 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Booleans, Floats, as_indices
+from beltrami._arrays import Floats, as_indices
 from beltrami._progress import Progress
-from beltrami.diffusion.heat import heat
-from beltrami.diffusion.smoothing import smooth
+from beltrami.diffusion.smoothing_methods import SMOOTHING_METHODS
 from beltrami.errors import BeltramiError, check_name
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
-from beltrami.operators.laplacian import laplacian
 
-SMOOTHING_METHODS = ("averaging", "implicit", "explicit")
 KEPT = ("volume", "centroid")
 
 
@@ -23,9 +21,13 @@ def smooth_mesh(
     *,
     steps: int | None = None,
     step: float | None = None,
+    pass_band: float | None = None,
     time: float | None = None,
     weights: str | None = None,
     mass: str | None = None,
+    features: float | None = None,
+    contrast: float | None = None,
+    fidelity: float | None = None,
     hold_boundary: bool = False,
     hold: ArrayLike = (),
     keep: str | None = None,
@@ -40,17 +42,39 @@ def smooth_mesh(
     mesh
         Any sound mesh.
     method
-        ``"averaging"``: ``steps`` rounds (default 10) of (1 - δ) x + δ D⁻¹ W x with δ = ``step``
-        (default 1).
-        ``"implicit"``, ``"explicit"``: the heat equation for ``time``, in ``steps`` steps.
+        Polynomials of the averaging W̃ = D⁻¹ W, which take ``steps`` and ``weights``:
+        ``"averaging"``: rounds (default 10) of (1 - δ) x + δ W̃ x with δ = ``step`` (default 1).
+        ``"taubin"``: pairs of rounds (default 10), one with δ = ``step`` (default 0.5) and one
+        that grows back, so that frequencies below ``pass_band`` (default 0.1) stay: it hardly
+        shrinks.
+        ``"windowed_sinc"``: the same aim by the best polynomial of degree ``steps`` (default 20).
+
+        Flows for a ``time``, in ``steps`` steps, which take ``weights`` and ``mass``:
+        ``"implicit"`` (10 steps), ``"explicit"``: heat, ∂x/∂t = -B⁻¹ L x.
+        ``"bilaplacian"`` (1 step): ∂x/∂t = -(B⁻¹ L)² x; the time has the unit length⁴.
+        ``"curvature_flow"`` (10 steps): implicit fairing by the mean curvature normal, the pair
+        made anew from the surface at each step.
+        ``"conformal_flow"`` (10 steps): the same with the stiffness of the start, which does not
+        pinch thin parts off.
+
+        Filters of the normals of the faces, which keep creases; then positions that fit them:
+        ``"bilateral_normals"`` (20 ``steps``), ``"guided_normals"`` (10): means over near faces
+        whose normals differ by less than about ``contrast`` (default 0.35).
+        ``"tv_normals"`` (200 ``steps``): normals of small total variation, near the old ones by
+        ``fidelity`` (default 1; more is nearer).
+    contrast, fidelity
+        See there; without a unit.
     time
-        Diffusion time of the heat methods, in length² with area masses; no default, because it
-        says how much is smoothed: features below about sqrt(4 time) go.
+        No default, because it says how much is smoothed: features below about sqrt(4 time) go, by
+        the bi-Laplacian those below 2 pi time^(1/4).
     weights
-        Default: "combinatorial" for averaging, which needs them non-negative; "cotangent" for
-        heat.
+        Default: "combinatorial" for polynomials, which need them non-negative; "cotangent" for
+        flows.
     mass
-        Of the heat methods; see ``laplacian``.
+        Of the flows; see ``laplacian``.
+    features
+        Of the polynomials: an angle in degrees. Edges where the surface bends more, and those of
+        the boundary, are smoothed along themselves, and corners stay.
     hold_boundary, hold
         Keep the boundary, or these vertices, where they are.
     keep
@@ -63,8 +87,8 @@ def smooth_mesh(
     NotClosedError
         If the volume is to be kept of a mesh with boundary.
     BeltramiError
-        If ``time`` is missing, an option is given that the method has not, or ``keep`` would
-        move what is held.
+        If ``time`` is missing, an option is given that the method has not, ``keep`` would move
+        what is held, or the surface degenerates on the way.
     NegativeWeightError, StepTooLongError, MeshError
         As ``smooth`` and ``heat``.
 
@@ -78,26 +102,38 @@ def smooth_mesh(
     >>> kept = smooth_mesh(sphere, steps=50, keep="volume")
     >>> round(kept.volume / sphere.volume, 12)
     1.0
+    >>> round(smooth_mesh(sphere, "taubin", steps=50).volume / sphere.volume, 2)
+    1.04
     """
-    check_name("smoothing method", method, SMOOTHING_METHODS)
-    foreign = {"time": time, "mass": mass} if method == "averaging" else {"step": step}
-    for name, value in foreign.items():
-        if value is not None:
-            raise BeltramiError(f"the method {method!r} has no {name}")
+    require_mesh(mesh, "smooth_mesh")
+    given = {
+        "steps": steps,
+        "step": step,
+        "pass_band": pass_band,
+        "time": time,
+        "weights": weights,
+        "mass": mass,
+        "features": features,
+        "contrast": contrast,
+        "fidelity": fidelity,
+    }
+    chosen = SMOOTHING_METHODS[check_name("smoothing method", method, tuple(SMOOTHING_METHODS))]
+    options = {name: value for name, value in given.items() if value is not None}
+    for name in options:
+        if name not in chosen.options:
+            raise BeltramiError(
+                f"the method {method!r} has no {name}; it has {', '.join(chosen.options)}"
+            )
     held = np.zeros(mesh.n_vertices, np.bool_)
     held[as_indices(hold, mesh.n_vertices, "held vertices")] = True
     if hold_boundary:
-        held[mesh.topology.boundary_edges.ravel()] = True
+        held |= mesh.topology.on_boundary
     if keep is not None:
         check_name("quantity to keep", keep, KEPT)
         if held.any():
             raise BeltramiError(f"keeping the {keep} would move the vertices that are held")
     before = mesh.volume if keep == "volume" else None
-    moved = mesh.with_vertices(
-        _averaged(mesh, weights, steps, step, held, progress)
-        if method == "averaging"
-        else _diffused(mesh, method, weights, mass, time, steps, held, progress)
-    )
+    moved = mesh.with_vertices(chosen.run(mesh, held, progress, **options))
     if keep is None:
         return moved
     factor = 1.0 if before is None else _regrowth(before, moved)
@@ -105,39 +141,6 @@ def smooth_mesh(
         raise BeltramiError(f"the surface has shrunk to a point, so its {keep} cannot be kept")
     centred = (moved.vertices - _centroid(moved)) * factor
     return moved.with_vertices(centred + _centroid(mesh))
-
-
-def _averaged(
-    mesh: Mesh,
-    weights: str | None,
-    steps: int | None,
-    step: float | None,
-    held: Booleans,
-    progress: Progress | None,
-) -> Floats:
-    pair = laplacian(mesh, "combinatorial" if weights is None else weights, "degree")
-    count = 10 if steps is None else steps
-    delta = 1.0 if step is None else step
-    return smooth(pair, mesh.vertices, count, delta, hold=held, progress=progress)
-
-
-def _diffused(
-    mesh: Mesh,
-    method: str,
-    weights: str | None,
-    mass: str | None,
-    time: float | None,
-    steps: int | None,
-    held: Booleans,
-    progress: Progress | None,
-) -> Floats:
-    if time is None:
-        raise BeltramiError(
-            f"the method {method!r} needs a time: about the square of the size of the details "
-            "that are to go, over 4"
-        )
-    pair = laplacian(mesh, weights, mass)
-    return heat(pair, mesh.vertices, time, method, steps, hold=held, progress=progress)
 
 
 def _regrowth(before: float, moved: Mesh) -> float:

@@ -6,13 +6,14 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.sparse import csr_array
 
-from beltrami._arrays import Floats, as_function, as_indices
+from beltrami._arrays import Booleans, Floats, as_function, as_indices
 from beltrami._jit import kernel
 from beltrami._progress import Progress, stages
-from beltrami.diffusion.locality import LocalRows, local_rows
 from beltrami.errors import BeltramiError, StepTooLongError
 from beltrami.operators.pair import Laplacian
+from beltrami.solvers.locality import LocalRows, local_rows
 
 _ROUNDS_A_CALL = 20  # between two looks at the progress, and at ctrl-C
 
@@ -87,57 +88,68 @@ def smooth(
         longest = 2 / laplacian.spectral_bound(mass="degree")
         if step > longest * (1 + 1e-12):
             raise StepTooLongError(step, longest)
+    rows = averaging_rows(laplacian, held, columns=values.size // laplacian.n)
+    return average(rows, values, np.full(int(steps), float(step)), progress)
+
+
+def averaging_rows(laplacian: Laplacian, held: Booleans, columns: int = 3) -> LocalRows:
+    """Return the rows of W̃ = D⁻¹ W in an order kind to the caches; held ones are empty.
+
+    For three columns and equal weights the shares are left out: there is less to load.
+    """
     weights = laplacian.weights
-    held |= laplacian.degrees == 0  # a vertex without neighbours keeps its value
-    columns = values.reshape(laplacian.n, -1)
-    alike = laplacian.weight_kind == "combinatorial" and columns.shape[1] == 3
-    shares = np.zeros(0) if alike else _shares(laplacian)  # all alike: nothing to load
-    rows = local_rows(weights.indptr, weights.indices, shares, held)
+    alone = held | (laplacian.degrees == 0)  # a vertex without neighbours keeps its value
+    alike = laplacian.weight_kind == "combinatorial" and columns == 3
+    shares = np.zeros(0) if alike else shares_of(weights)
+    return local_rows(weights.indptr, weights.indices, shares, alone)
+
+
+def average(rows: LocalRows, f: Floats, steps: Floats, progress: Progress | None = None) -> Floats:
+    r"""Apply :math:`\prod_i ((1 - \delta_i) Id + \delta_i \tilde W)` to each column of f.
+
+    A row that is empty leaves its value alone. Nothing is checked: ``smooth`` does that.
+    """
+    columns = f.reshape(len(f), -1)
     ordered = np.take(columns, rows.order, axis=0, mode="clip")  # clip: no test of the indices
-    averaged = _averaged(rows, ordered, steps, step, progress)
-    return np.take(averaged, rows.number, axis=0, mode="clip").reshape(values.shape)
+    averaged = _averaged(rows, ordered, steps, progress)
+    return np.take(averaged, rows.number, axis=0, mode="clip").reshape(f.shape)
 
 
-def _shares(laplacian: Laplacian) -> Floats:
-    """Return w_ij / d_i, entry by entry; 0 / 0 where a vertex has no weight is not used."""
-    weights = laplacian.weights
+def shares_of(weights: csr_array) -> Floats:
+    """Return w_ij / Σ_j w_ij, entry by entry; 0 / 0 where a vertex has no weight is not used."""
+    total = np.asarray(weights.sum(axis=1))
     with np.errstate(invalid="ignore"):
-        return np.asarray(weights.data / np.repeat(laplacian.degrees, np.diff(weights.indptr)))
+        return np.asarray(weights.data / np.repeat(total, np.diff(weights.indptr)))
 
 
-def _averaged(
-    rows: LocalRows,
-    values: Floats,
-    steps: int,
-    step: float,
-    progress: Progress | None,
-) -> Floats:
+def _averaged(rows: LocalRows, values: Floats, steps: Floats, progress: Progress | None) -> Floats:
     """Run the rounds, some at a time; three columns go side by side, others one by one."""
     triples = values.shape[1] == 3
     state = values if triples else np.ascontiguousarray(values.T)
     spare = np.empty_like(state)
-    for rounds in stages(steps, progress, _ROUNDS_A_CALL):
-        pattern = (rows.indptr, rows.indices)
+    pattern = (rows.indptr, rows.indices)
+    done = 0
+    for rounds in stages(len(steps), progress, _ROUNDS_A_CALL):
+        some = steps[done : done + rounds]
+        done += rounds
         if not len(rows.data) and triples:
-            swapped = _average_triples_alike(*pattern, state, spare, step, rounds)
+            swapped = _average_triples_alike(*pattern, state, spare, some)
         elif triples:
-            swapped = _average_triples(*pattern, rows.data, state, spare, step, rounds)
+            swapped = _average_triples(*pattern, rows.data, state, spare, some)
         else:
-            swapped = _average_columns(*pattern, rows.data, state, spare, step, rounds)
+            swapped = _average_columns(*pattern, rows.data, state, spare, some)
         if swapped:
             state, spare = spare, state
     return state if triples else np.ascontiguousarray(state.T)
 
 
 @kernel
-def _average_triples_alike(
-    indptr: Any, indices: Any, x: Any, y: Any, step: float, rounds: int
-) -> bool:
+def _average_triples_alike(indptr: Any, indices: Any, x: Any, y: Any, steps: Any) -> bool:
     """Average three columns with equal weights; say whether the result is in y."""
     n = np.uint64(x.shape[0])
     one = np.uint64(1)
-    previous, keep, share = np.uint64(0), 1.0, 0.0
-    for _ in range(rounds):
+    for step in steps:
+        previous, keep, share = np.uint64(0), 1.0, 0.0
         i = q = np.uint64(0)
         while i < n:
             end = np.uint64(indptr[i + one])
@@ -156,17 +168,15 @@ def _average_triples_alike(
             y[i, 2] = keep * x[i, 2] + share * c
             i += one
         x, y = y, x
-    return rounds % 2 == 1
+    return steps.size % 2 == 1
 
 
 @kernel
-def _average_triples(
-    indptr: Any, indices: Any, shares: Any, x: Any, y: Any, step: float, rounds: int
-) -> bool:
+def _average_triples(indptr: Any, indices: Any, shares: Any, x: Any, y: Any, steps: Any) -> bool:
     """Average three columns with the given shares; say whether the result is in y."""
     n = np.uint64(x.shape[0])
     one = np.uint64(1)
-    for _ in range(rounds):
+    for step in steps:
         i = q = np.uint64(0)
         while i < n:
             end = np.uint64(indptr[i + one])
@@ -183,17 +193,15 @@ def _average_triples(
             y[i, 2] = keep * x[i, 2] + step * c
             i += one
         x, y = y, x
-    return rounds % 2 == 1
+    return steps.size % 2 == 1
 
 
 @kernel
-def _average_columns(
-    indptr: Any, indices: Any, shares: Any, x: Any, y: Any, step: float, rounds: int
-) -> bool:
+def _average_columns(indptr: Any, indices: Any, shares: Any, x: Any, y: Any, steps: Any) -> bool:
     """Average columns that lie one after the other (c, n); say whether the result is in y."""
     n = np.uint64(x.shape[1])
     one = np.uint64(1)
-    for _ in range(rounds):
+    for step in steps:
         for column in range(x.shape[0]):
             old, new = x[column], y[column]
             i = q = np.uint64(0)
@@ -207,4 +215,4 @@ def _average_columns(
                 new[i] = keep * old[i] + step * total
                 i += one
         x, y = y, x
-    return rounds % 2 == 1
+    return steps.size % 2 == 1

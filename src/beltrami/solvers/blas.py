@@ -7,11 +7,12 @@ names the routines, and the letters, scalars and sizes that Fortran wants by ref
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
-from llvmlite import ir  # type: ignore[import-untyped]
+from llvmlite import ir
 from numba.core import cgutils, types
 from numba.extending import get_cython_function_address, intrinsic
 from numpy.typing import DTypeLike, NDArray
@@ -54,9 +55,8 @@ def _address(library: str, routine: str) -> int:
     return int(get_cython_function_address(f"scipy.linalg.{library}", routine))
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def call(typing_context: Any, address: Any, arguments: Any) -> Any:  # noqa: ARG001
-    """Call the C function at an address with a tuple of pointers, given as integers."""
+def _generate_call(typing_context: Any, address: Any, arguments: Any) -> Any:  # noqa: ARG001
+    """Write the code of a call of the C function at an address, with a tuple of pointers."""
     signature = types.void(address, arguments)
 
     def generate(context: Any, builder: Any, signature: Any, values: Any) -> Any:  # noqa: ARG001
@@ -66,6 +66,9 @@ def call(typing_context: Any, address: Any, arguments: Any) -> Any:  # noqa: ARG
         return context.get_dummy_value()
 
     return signature, generate
+
+
+call: Callable[[int, tuple[int, ...]], None] = intrinsic(_generate_call)  # in kernels only
 
 
 @kernel

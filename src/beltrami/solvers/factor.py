@@ -3,30 +3,33 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csc_array
 
-from beltrami._arrays import Floats, rectangular
-from beltrami.errors import BeltramiError, ConvergenceError, DimensionError, NonFiniteError
+from beltrami._arrays import Floats
+from beltrami.errors import BeltramiError, ConvergenceError, NonFiniteError
+from beltrami.solvers.matrix import as_right_hand_side
 
 REFINE_ABOVE = 1e-14  # backward error of a trial for which every solution is refined
 _ROUNDS = 20  # of refinement, at most
 _REFUSED = 1e-10  # backward error of a refined solution that is not given out
 
+Answer = TypeVar("Answer")
+
 
 class Backend(Protocol):
-    """What a library gives back."""
+    """What a library gives back; None where it does not tell."""
 
     @property
-    def fill(self) -> int:
+    def fill(self) -> int | None:
         """Number of stored entries of the factors."""
         ...
 
     @property
-    def memory(self) -> int:
+    def memory(self) -> int | None:
         """Bytes that the factors take."""
         ...
 
@@ -34,13 +37,13 @@ class Backend(Protocol):
         """Return x with A x = b, of the same shape: (n,) or (n, c)."""
         ...
 
-    def logdet(self) -> float:
+    def logdet(self) -> float | None:
         """Return log abs det A."""
         ...
 
     @property
     def inertia(self) -> tuple[int, int] | None:
-        """Numbers of positive and negative eigenvalues, where the factors tell."""
+        """Numbers of positive and negative eigenvalues."""
         ...
 
 
@@ -48,7 +51,8 @@ class Backend(Protocol):
 class Factor:
     """The factorisation of a square sparse matrix; ``factorize`` makes it.
 
-    It belongs to its process: it is not pickled, but made anew from the matrix.
+    It belongs to its process: it is not pickled, but made anew from the matrix. What the library
+    does not tell (``fill``, ``memory``, ``logdet`` or ``inertia``) raises BeltramiError.
 
     Attributes
     ----------
@@ -67,7 +71,8 @@ class Factor:
     _solver: Backend = field(repr=False)
 
     def __repr__(self) -> str:
-        return f"<Factor: {self.n} unknowns, {self.backend}, {self.fill} non-zeros>"
+        fill = "" if self._solver.fill is None else f", {self._solver.fill} non-zeros"
+        return f"<Factor: {self.n} unknowns, {self.backend}{fill}>"
 
     @property
     def n(self) -> int:
@@ -77,17 +82,17 @@ class Factor:
     @property
     def fill(self) -> int:
         """Number of stored entries of the factors."""
-        return self._solver.fill
+        return self._told(self._solver.fill, "fill", "cholesky")
 
     @property
     def memory(self) -> int:
         """Bytes that the factors take."""
-        return self._solver.memory
+        return self._told(self._solver.memory, "memory", "cholesky")
 
     @property
     def logdet(self) -> float:
         """Return log abs det A, the sum of the logarithms of the pivots."""
-        return self._solver.logdet()
+        return self._told(self._solver.logdet(), "determinant", "superlu")
 
     @property
     def inertia(self) -> tuple[int, int]:
@@ -98,7 +103,7 @@ class Factor:
         Raises
         ------
         BeltramiError
-            If the factors do not tell: those of SuperLU.
+            If the factors do not tell: those of SuperLU, which exchanges rows.
 
         Examples
         --------
@@ -107,10 +112,13 @@ class Factor:
         >>> factorize(scipy.sparse.diags_array([2.0, -1.0, 3.0]), backend="ldl").inertia
         (2, 1)
         """
-        found = self._solver.inertia
+        return self._told(self._solver.inertia, "inertia", "ldl")
+
+    def _told(self, found: Answer | None, what: str, other: str) -> Answer:
+        """Return what the library told, or raise an error that names one that tells."""
         if found is None:
             raise BeltramiError(
-                f'the factors of {self.backend} do not tell the inertia: use backend="ldl"'
+                f'the factors of {self.backend} do not tell the {what}: use backend="{other}"'
             )
         return found
 
@@ -126,12 +134,7 @@ class Factor:
         ConvergenceError
             If refinement was needed, and did not help.
         """
-        right = np.asarray(rectangular(b), dtype=np.float64)
-        if right.ndim not in (1, 2) or len(right) != self.n:
-            raise DimensionError(
-                f"the right-hand side has the shape {right.shape} where ({self.n},) or "
-                f"({self.n}, c) is needed"
-            )
+        right = as_right_hand_side(b, self.n)
         solution: Any = self._solver.solve(right)
         if not np.isfinite(solution).all():
             where = "right-hand side" if not np.isfinite(right).all() else "solution"

@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
-from scipy.sparse import csc_array, issparse
+from scipy.sparse import csc_array
 
 from beltrami._arrays import Floats
 from beltrami.errors import (
     BeltramiError,
-    DimensionError,
-    NonFiniteError,
     NotPositiveDefiniteError,
     SingularMatrixError,
     check_name,
 )
 from beltrami.solvers.cholesky import Cholesky, factorize_cholesky, singular
-from beltrami.solvers.factor import REFINE_ABOVE, Factor
+from beltrami.solvers.cholespy import factorize_cholespy
+from beltrami.solvers.cholmod import factorize_cholmod
+from beltrami.solvers.factor import REFINE_ABOVE, Backend, Factor
 from beltrami.solvers.ldl import factorize_ldl, without_pivot
+from beltrami.solvers.matrix import as_matrix
 from beltrami.solvers.ordering import ORDERINGS, as_positions, order
+from beltrami.solvers.pardiso import factorize_pardiso
 from beltrami.solvers.superlu import factorize_superlu
 from beltrami.solvers.symmetry import (
     is_symmetric,
@@ -29,7 +32,12 @@ from beltrami.solvers.symmetry import (
 )
 from beltrami.solvers.trial import SINGULAR, trial
 
-BACKENDS = ("auto", "cholesky", "ldl", "superlu")
+OTHERS: dict[str, Callable[[csc_array], Backend]] = {
+    "cholespy": factorize_cholespy,
+    "cholmod": factorize_cholmod,
+    "pardiso": factorize_pardiso,
+}
+BACKENDS = ("auto", "cholesky", "ldl", "superlu", *OTHERS)
 WORTHLESS = 1e-9  # backward error of a trial of LDL beyond which refinement is not relied on
 SMALL = 5000  # unknowns below which SuperLU is as fast, and has no kernels to load
 
@@ -58,6 +66,8 @@ def factorize(
         ``"ldl"``: likewise without exchanges, for symmetric matrices of any signs; it counts them
         (``Factor.inertia``).
         ``"superlu"``: LU with exchanges of rows, for every invertible matrix.
+        ``"cholespy"``, ``"cholmod"`` (definite matrices) and ``"pardiso"`` (every invertible one):
+        libraries to compare with, if you have installed them; the ordering is theirs.
         ``"auto"``: from 5000 unknowns on the first of Cholesky, LDL and SuperLU that the matrix
         allows and whose trial solution is good; SuperLU below. The one used is told by
         ``Factor.backend``.
@@ -81,6 +91,8 @@ def factorize(
         If Cholesky was asked for and A is not symmetric positive definite; ``error.rows``.
     UnknownNameError, BeltramiError
         If there is no such backend, ordering or dtype.
+    MissingExtraError
+        If the library of the backend is not installed.
 
     Notes
     -----
@@ -98,19 +110,21 @@ def factorize(
     """
     check_name("backend", backend, BACKENDS)
     check_name("ordering", ordering, ORDERINGS)
-    matrix = _checked(A)
+    matrix = as_matrix(A)
     n = matrix.shape[0]
     positions = None if coordinates is None else as_positions(coordinates, n)
     kind = np.dtype(dtype)
     if kind not in (np.float64, np.float32):
         raise BeltramiError(f"factors are float64 or float32, not {kind}")
     half = kind == np.float32
-    if half and backend in ("ldl", "superlu"):
+    if half and backend not in ("auto", "cholesky"):
         raise BeltramiError(f"{backend} factorises in float64 only")
     if half or backend == "cholesky":
         return _by_cholesky(matrix, positions, ordering, kind)
     if backend == "ldl":
         return _by_ldl(matrix, positions, ordering)
+    if backend in OTHERS:
+        return _by_other(matrix, backend)
     if backend == "superlu" or n < SMALL:
         return Factor(matrix, "superlu", False, factorize_superlu(matrix, is_symmetric(matrix)))
     return _first_that_fits(matrix, positions, ordering)
@@ -128,25 +142,6 @@ def _first_that_fits(matrix: csc_array, positions: Floats | None, ordering: str)
         except SingularMatrixError:  # or it needs exchanges: SuperLU tells
             return Factor(matrix, "superlu", False, factorize_superlu(matrix, symmetric))
     return Factor(matrix, "superlu", False, factorize_superlu(matrix, symmetric))
-
-
-def _checked(A: Any) -> csc_array:
-    """Return the matrix by columns, rows sorted, every entry once and not zero."""
-    shape: tuple[int, ...] = getattr(A, "shape", ())
-    if not issparse(A) or len(shape) != 2 or shape[0] != shape[1]:
-        what = shape or type(A).__name__
-        raise DimensionError(f"a square scipy sparse matrix is needed, and this is {what}")
-    given: Any = A
-    if not shape[0] or given.dtype.kind not in "biuf":
-        raise DimensionError("a matrix to factorise is real, and not empty")
-    matrix = csc_array(given, dtype=np.float64)
-    if not np.isfinite(matrix.data).all():
-        raise NonFiniteError("the matrix has entries that are NaN or infinite")
-    if not matrix.has_canonical_format or not matrix.data.all():
-        matrix = matrix.copy()
-        matrix.sum_duplicates()
-        matrix.eliminate_zeros()
-    return matrix
 
 
 def _by_cholesky(matrix: csc_array, positions: Floats | None, ordering: str, dtype: Any) -> Factor:
@@ -176,3 +171,15 @@ def _by_ldl(matrix: csc_array, positions: Floats | None, ordering: str) -> Facto
     if not (condition < SINGULAR and error <= WORTHLESS):
         raise without_pivot(int(elimination.order[np.argmin(solver.pivots)]))
     return Factor(matrix, "ldl", not error <= REFINE_ABOVE, solver)
+
+
+def _by_other(matrix: csc_array, backend: str) -> Factor:
+    """Factorise with another library and try the factor: it may be worthless and not say so."""
+    solver = OTHERS[backend](matrix)
+    condition, error = trial(matrix, solver)
+    if not (condition < SINGULAR and error <= WORTHLESS):
+        raise SingularMatrixError(
+            f"the matrix is singular to working precision, or {backend} cannot do it: its solution "
+            f'of a trial has the relative residual {error:.1e}. Try backend="superlu"'
+        )
+    return Factor(matrix, backend, not error <= REFINE_ABOVE, solver)

@@ -1,0 +1,128 @@
+"""plot_spectrum: the coefficients of functions beside their frequencies (figure 3.8)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from beltrami._arrays import Floats, as_function
+from beltrami._optional import require
+from beltrami.display.images import check_suffix, write_image
+from beltrami.display.srgb import Image
+from beltrami.errors import BeltramiError
+from beltrami.spectrum.basis import FourierBasis
+
+_BANDS_PER_OCTAVE = 2  # of λ, over which the lines take root mean squares
+_DPI = 100
+_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00")
+_FLOOR = 1e-18  # of the largest coefficient: what is below is drawn there
+
+
+def plot_spectrum(
+    basis: FourierBasis,
+    functions: Mapping[str, ArrayLike],
+    path: str | os.PathLike[str] | None = None,
+    *,
+    size: tuple[int, int] = (900, 560),
+) -> Image:
+    r"""Draw spectra :math:`|\langle f, \varphi_i\rangle_B|` of functions over :math:`\lambda_i`.
+
+    Both axes are logarithmic, so that the power laws of smoothness are straight lines. Dots are
+    coefficients; lines are their root mean squares over half octaves, which unlike single
+    coefficients do not depend on the basis chosen in an eigenspace. The constant modes, λ = 0, are
+    left out.
+
+    Chapter items: F3.8, P61.
+
+    Parameters
+    ----------
+    basis
+        Eigenpairs of the pair (L, B).
+    functions
+        Names, for the legend, and functions (n,) or (n, c); the columns of one are taken together
+        by the norm of their coefficients.
+    path
+        Where to write the picture, by suffix: png, webp or gif.
+    size
+        Width and height in pixels.
+
+    Returns
+    -------
+    (h, w, 3) uint8 picture.
+
+    Raises
+    ------
+    MissingExtraError
+        If matplotlib is not installed: ``pip install "beltrami[plot]"``.
+    BeltramiError
+        If there are no functions, or no eigenvalue beyond zero.
+    DimensionError, NonFiniteError, UnknownNameError
+        If a function or the suffix is not valid.
+    """
+    if path is not None:
+        check_suffix(path)
+    if not functions:
+        raise BeltramiError("there is nothing to plot: give at least one function")
+    positive = basis.eigenvalues > 1e-9 * max(float(basis.eigenvalues[-1]), 0.0)
+    if not positive.any():
+        raise BeltramiError("no eigenvalue is beyond zero: compute more eigenpairs")
+    spectra = {
+        name: _magnitudes(basis, as_function(f, basis.n, f"the function {name!r}"))[positive]
+        for name, f in functions.items()
+    }
+    image = _draw(basis.eigenvalues[positive], spectra, size)
+    if path is not None:
+        write_image(path, image)
+    return image
+
+
+def band_means(eigenvalues: Floats, magnitudes: Floats) -> tuple[Floats, Floats]:
+    """Root mean squares of coefficients over half octaves of the eigenvalues, which ascend.
+
+    Returns the geometric mean of the eigenvalues of each band that has any, and the means.
+
+    Examples
+    --------
+    >>> at, mean = band_means(np.array([1.0, 1.1, 2.0, 8.0]), np.array([3.0, 4.0, 2.0, 1.0]))
+    >>> at.round(3).tolist(), mean.round(3).tolist()
+    ([1.049, 2.0, 8.0], [3.536, 2.0, 1.0])
+    """
+    steps = _BANDS_PER_OCTAVE * np.log2(eigenvalues / eigenvalues[0]) + 1e-9
+    _, band = np.unique(np.floor(steps), return_inverse=True)
+    count = np.bincount(band)
+    at = np.exp(np.bincount(band, np.log(eigenvalues)) / count)
+    return at, np.sqrt(np.bincount(band, magnitudes**2) / count)
+
+
+def _magnitudes(basis: FourierBasis, f: Floats) -> Floats:
+    coefficients = basis.forward(f)
+    if coefficients.ndim == 1:
+        return np.abs(coefficients)
+    return np.asarray(np.linalg.norm(coefficients, axis=1))
+
+
+def _draw(eigenvalues: Floats, spectra: Mapping[str, Floats], size: tuple[int, int]) -> Image:
+    figure_of: Any = require("matplotlib.figure", "plot", "plots of spectra")
+    agg: Any = require("matplotlib.backends.backend_agg", "plot", "plots of spectra")
+    figure = figure_of.Figure(
+        figsize=(size[0] / _DPI, size[1] / _DPI), dpi=_DPI, layout="constrained"
+    )
+    canvas = agg.FigureCanvasAgg(figure)
+    axes = figure.add_subplot()
+    highest = max(float(values.max()) for values in spectra.values())
+    floor = _FLOOR * (highest or 1.0)
+    for i, (name, values) in enumerate(spectra.items()):
+        color = _COLORS[i % len(_COLORS)]
+        axes.plot(eigenvalues, np.maximum(values, floor), ".", color=color, alpha=0.3, ms=5)
+        at, mean = band_means(eigenvalues, values)
+        axes.plot(at, np.maximum(mean, floor), "-", color=color, lw=2, label=name)
+    axes.set(xscale="log", yscale="log", xlabel="eigenvalue λ", ylabel="size of coefficient")
+    axes.grid(visible=True, which="major", color="0.9")
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.legend(frameon=False)
+    canvas.draw()
+    return np.ascontiguousarray(np.asarray(canvas.buffer_rgba())[..., :3])
