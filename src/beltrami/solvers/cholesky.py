@@ -131,12 +131,17 @@ class Cholesky:
         shape, count = self.elimination, min(_BLOCK, b.shape[1] - j)
         x = lines_for(len(shape.order), count, self.values.dtype)
         enter_many(b, j, count, shape.order, self.scale, x)
+        self.substitute(x)
+        leave_many(x, count, shape.place, self.scale, j, result)
+
+    def substitute(self, x: NDArray[Any]) -> None:
+        """Solve L S L' x = b in place, in the order of elimination; x is of ``lines_for``."""
+        shape = self.elimination
         offsets = np.empty(shape.widest + shape.tallest, np.int64)
         solve_many(*self._panels, x, offsets)
         if self.signs is not None:
             x *= self.signs[:, None]
         solve_many_transposed(*self._panels, x, offsets)
-        leave_many(x, count, shape.place, self.scale, j, result)
 
 
 def factorize_cholesky(
