@@ -95,8 +95,11 @@ class Cholesky:
         if b.shape[1] == 3:
             self._solve_three(right, x)
             return x
-        for j in range(0, b.shape[1], _BLOCK):
-            self._solve_many(right, j, x)
+        blocks = -(-b.shape[1] // _BLOCK)
+        width = -(-b.shape[1] // max(blocks, 1))
+        room = lines_for(len(x), width, self.values.dtype)
+        for j in range(0, b.shape[1], max(width, 1)):
+            self._solve_many(right, j, min(width, b.shape[1] - j), room, x)
         return x
 
     @property
@@ -126,10 +129,9 @@ class Cholesky:
         solve_three_transposed(*self._panels, x, work)
         leave(x, shape.place, self.scale, result)
 
-    def _solve_many(self, b: Floats, j: int, result: Floats) -> None:
-        """Solve for a block of columns of b, from column j on, into those of the result."""
-        shape, count = self.elimination, min(_BLOCK, b.shape[1] - j)
-        x = lines_for(len(shape.order), count, self.values.dtype)
+    def _solve_many(self, b: Floats, j: int, count: int, x: NDArray[Any], result: Floats) -> None:
+        """Solve for columns j to j + count of b, into those of the result; x is the room."""
+        shape = self.elimination
         enter_many(b, j, count, shape.order, self.scale, x)
         self.substitute(x)
         leave_many(x, count, shape.place, self.scale, j, result)
