@@ -87,11 +87,11 @@ def _dissect(indptr: Any, indices: Any, x: Any, leaf: int) -> Any:
     slot, ends, above = np.full(n, -1, np.int64), np.empty(MOST, np.int64), np.empty(MOST, np.int64)
     tasks, sizes = np.empty((n, 3), np.int64), np.empty(3, np.int64)
     firsts, parents = np.empty(n, np.int64), np.empty(n, np.int64)
-    tasks[0] = 0, n, -1
+    tasks[0, 0], tasks[0, 1], tasks[0, 2] = 0, n, -1
     waiting, blocks, mine = 1, 0, 0
     while waiting:
         waiting -= 1
-        low, high, parent = tasks[waiting]
+        low, high, parent = tasks[waiting, 0], tasks[waiting, 1], tasks[waiting, 2]
         if high - low <= leaf:
             count = order_leaf(indptr, indices, order, low, high, slot, ends, above)
             begin = low
@@ -127,7 +127,7 @@ def _dissect(indptr: Any, indices: Any, x: Any, leaf: int) -> Any:
             parent = right
         for begin, end in ((left, right), (low, left)):
             if begin < end:
-                tasks[waiting] = begin, end, parent
+                tasks[waiting, 0], tasks[waiting, 1], tasks[waiting, 2] = begin, end, parent
                 waiting += 1
     return order, firsts[:blocks], parents[:blocks]
 
@@ -135,7 +135,7 @@ def _dissect(indptr: Any, indices: Any, x: Any, leaf: int) -> Any:
 @kernel
 def _gather(order: Any, low: int, high: int, owner: Any, mine: int, sizes: Any, found: Any) -> None:
     """List the separator in ``found``, and count it and its sides."""
-    sizes[:] = 0
+    sizes[0] = sizes[1] = sizes[2] = 0
     for t in range(np.uint64(low), np.uint64(high)):
         v = order[t]
         at = owner[v] - mine
@@ -167,7 +167,8 @@ def _arrange(order: Any, low: int, high: int, owner: Any, mine: int, sizes: Any,
         else:
             moved[second] = v
             second += np.uint64(1)
-    order[low:high] = moved[low:high]
+    for t in range(np.uint64(low), np.uint64(high)):
+        order[t] = moved[t]
     return left, right
 
 
@@ -196,7 +197,7 @@ def _part(
     t = low
     while True:
         if end - begin > leaf and part > begin:  # what came before this part is full
-            tasks[waiting] = begin, part, parent
+            tasks[waiting, 0], tasks[waiting, 1], tasks[waiting, 2] = begin, part, parent
             waiting += 1
             begin = part
         if end == high:
@@ -204,7 +205,7 @@ def _part(
         while level[order[t]] >= 0:
             t += 1
         part, end = end, walk(indptr, indices, order[t], owner, mine, level, moved, end)
-    tasks[waiting] = begin, high, parent
+    tasks[waiting, 0], tasks[waiting, 1], tasks[waiting, 2] = begin, high, parent
     for t in range(low, high):
         order[t] = moved[t]
         level[moved[t]] = -1

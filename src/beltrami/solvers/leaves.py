@@ -38,7 +38,10 @@ def order_leaf(
             parent[k] = min(parent[k], place[lowest_bit(later)])
             later &= later - np.uint64(1)
     tree = np.full((m + 1, 2), -1)  # first child and next sibling; m is the parent of the roots
-    _merge(parent, below[column], columns, top, tree)
+    degree = np.empty(m, np.int64)
+    for k in range(m):
+        degree[k] = below[column[k]]
+    _merge(parent, degree, columns, top, tree)
     return _write(order, low, column, parent, columns, top, tree, ends, parents)
 
 
@@ -188,7 +191,9 @@ def _write(
     number[m] = -1
     for k in range(count):
         parents[k] = number[parents[k]]
-    old = order[low : low + m].copy()
+    old = np.empty(m, order.dtype)
+    for k in range(m):
+        old[k] = order[low + k]
     for k in range(m):
         to = begin[top[k]]
         order[low + to] = old[column[k]]
