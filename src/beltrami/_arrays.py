@@ -141,6 +141,8 @@ def whole(name: str, value: Any, least: int, most: int = 2**53) -> int:
     4
     """
     try:
+        if isinstance(value, bool):
+            raise TypeError
         number = operator.index(value)
     except TypeError:
         raise MeshError(f"{name} is {shown(value)} where a whole number is needed") from None

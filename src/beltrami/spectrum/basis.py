@@ -10,12 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
-from beltrami._arrays import Floats, as_function, read_only, read_only_matrix
+from beltrami._arrays import Floats, as_function, read_only, read_only_matrix, whole
 from beltrami.errors import BeltramiError, DimensionError, NonFiniteError
 from beltrami.solvers.computation import Computation
 from beltrami.spectrum.basis_file import write_basis
 from beltrami.spectrum.kernel import Response, evaluate
-from beltrami.spectrum.whole import whole
 
 
 @dataclass(frozen=True, eq=False, repr=False)

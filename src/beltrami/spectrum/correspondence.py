@@ -8,12 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, Integers, as_function, as_indices, read_only
+from beltrami._arrays import Floats, Integers, as_function, as_indices, read_only, whole
 from beltrami.errors import BeltramiError, DimensionError
 from beltrami.spectrum.basis import FourierBasis
 from beltrami.spectrum.masses import total_mass
 from beltrami.spectrum.null_space import positive_modes, true_zeros
-from beltrami.spectrum.numbers import as_count
 from beltrami.spectrum.point_maps import map_of_points, nearest_points, nearest_points_back
 
 
@@ -156,7 +155,7 @@ def unit_eigenvalues(basis: FourierBasis) -> Floats:
 def size_of(basis: FourierBasis, k: int | None) -> int:
     """Return k, or all of the basis; BeltramiError if it is not within the basis."""
     positive_modes(basis, "a functional map")
-    size = basis.k if k is None else as_count(k, "k")
+    size = basis.k if k is None else whole("k", k, least=1)
     if size > basis.k:
         raise BeltramiError(f"k is {k}, and the basis has {basis.k} eigenpairs")
     return size

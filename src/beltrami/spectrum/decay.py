@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, as_function, rectangular
+from beltrami._arrays import Floats, as_function, rectangular, whole
 from beltrami.errors import BeltramiError
 from beltrami.operators.pair import Laplacian
 from beltrami.spectrum.operator import as_operator
-from beltrami.spectrum.whole import whole
 
 
 def decay_bound(laplacian: Laplacian, f: ArrayLike, eigenvalues: ArrayLike, power: int) -> Floats:

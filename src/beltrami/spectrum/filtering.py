@@ -6,7 +6,7 @@ import math
 
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, as_function
+from beltrami._arrays import Floats, as_function, whole
 from beltrami._progress import Progress
 from beltrami.errors import BeltramiError, DimensionError, check_name
 from beltrami.operators.domain import require_laplacian
@@ -18,7 +18,6 @@ from beltrami.spectrum.interval import spectral_interval
 from beltrami.spectrum.kernel import Response
 from beltrami.spectrum.lanczos import lanczos_filter
 from beltrami.spectrum.recurrence import chebyshev_sums
-from beltrami.spectrum.whole import whole
 
 FILTER_METHODS = ("chebyshev", "exact", "lanczos")
 _LARGEST_DENSE = 4000  # vertices: 130 MB for each of three matrices, and minutes

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Floats, whole
 from beltrami.spectrum.basis import FourierBasis
 from beltrami.spectrum.masses import total_mass
 from beltrami.spectrum.null_space import ZERO, positive_modes, true_zeros
-from beltrami.spectrum.numbers import as_count, as_samples
+from beltrami.spectrum.numbers import as_samples
 from beltrami.spectrum.signature import Signature, weighted_squares
 from beltrami.spectrum.truncation import missing_squares, worst_ratio
 
@@ -82,7 +82,7 @@ def heat_kernel_signature(
     >>> (heat.values.mean(axis=0) / exact).round(1).tolist(), bool(heat.truncation.max() < 1e-3)
     ([1.0, 1.0], True)
     """
-    as_count(count, "count")
+    whole("count", count, least=1)
     unit = total_mass(basis) if scale_invariant else 1.0
     if times is None:
         at = _automatic(basis, count, tolerance) / unit

@@ -1,4 +1,4 @@
-"""Numbers at the door: counts, and lists of times or energies."""
+"""Numbers at the door: lists of times or energies."""
 
 from __future__ import annotations
 
@@ -18,11 +18,3 @@ def as_samples(samples: ArrayLike, what: str, *, positive: bool = False) -> Floa
     if positive and values.min() < 0:
         raise BeltramiError(f"{what} must be >= 0, not {values.min():g}")
     return values
-
-
-def as_count(count: int, what: str, least: int = 1) -> int:
-    """Check a whole number from ``least`` on."""
-    whole = rectangular(count)
-    if whole.ndim or whole.dtype.kind not in "iu" or whole < least:
-        raise BeltramiError(f"{what} must be a whole number >= {least}, not {count}")
-    return int(whole)

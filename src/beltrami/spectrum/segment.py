@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, Integers, as_indices, read_only, rectangular
+from beltrami._arrays import Floats, Integers, as_indices, read_only, rectangular, whole
 from beltrami.errors import BeltramiError, DimensionError
 from beltrami.mesh.connectivity import component_labels
 from beltrami.spectrum.basis import FourierBasis
@@ -15,7 +15,6 @@ from beltrami.spectrum.distances import spectral_embedding
 from beltrami.spectrum.k_means import in_order_of_appearance, k_means
 from beltrami.spectrum.masses import vertex_masses
 from beltrami.spectrum.null_space import ZERO, positive_modes
-from beltrami.spectrum.numbers import as_count
 
 _FAR = 10.0  # from one component to another, in extents of the embedding
 
@@ -114,7 +113,7 @@ def segment(
     >>> parts, bool(parts.masses.min() > 0.3 * parts.masses.sum())
     (<Segmentation: 732 vertices in 3 segments>, True)
     """
-    if as_count(count, "count") > basis.n:
+    if whole("count", count, least=1) > basis.n:
         raise BeltramiError(f"{basis.n} vertices make no {count} segments")
     zeros = positive_modes(basis, "a segmentation", tolerance)
     points = spectral_embedding(basis, kind, time=time, tolerance=tolerance)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Floats, whole
 from beltrami.errors import BeltramiError, MeshError
 from beltrami.spectrum.basis import FourierBasis
 from beltrami.spectrum.masses import total_mass
 from beltrami.spectrum.null_space import ZERO, positive_modes
-from beltrami.spectrum.numbers import as_count, as_samples
+from beltrami.spectrum.numbers import as_samples
 from beltrami.spectrum.signature import Signature, weighted_squares
 from beltrami.spectrum.truncation import missing_modes, missing_squares, worst_ratio
 
@@ -88,7 +88,7 @@ def wave_kernel_signature(
     True
     """
     zeros = positive_modes(basis, "the wave kernel", tolerance)
-    as_count(count, "count", least=2)
+    whole("count", count, least=2)
     unit = total_mass(basis) if scale_invariant else 1.0
     levels = np.log(basis.eigenvalues[zeros:]) + np.log(unit)
     width = _width(levels, energies, count) if sigma is None else float(sigma)

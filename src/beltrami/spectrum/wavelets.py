@@ -7,12 +7,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Floats, whole
 from beltrami.errors import BeltramiError
 from beltrami.spectrum.frames import Frame
 from beltrami.spectrum.kernel import Kernel
 from beltrami.spectrum.kernels import smooth_step
-from beltrami.spectrum.whole import whole
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from beltrami._arrays import Floats, Integers
+from beltrami._arrays import Floats, Integers, whole
 from beltrami._progress import Progress, stages
 from beltrami.errors import BeltramiError
 from beltrami.spectrum.correspondence import (
@@ -13,7 +13,6 @@ from beltrami.spectrum.correspondence import (
 )
 from beltrami.spectrum.masses import total_mass
 from beltrami.spectrum.nearest import spread_rows
-from beltrami.spectrum.numbers import as_count
 from beltrami.spectrum.point_maps import map_of_points, map_of_samples, nearest_points
 
 
@@ -80,7 +79,7 @@ def zoomout(
     >>> bool((zoomout(start).point_map == np.arange(basis.n)).all())
     True
     """
-    as_count(step, "step")
+    whole("step", step, least=1)
     source, target = start.source, start.target
     rows, columns = start.matrix.shape
     least, most = max(rows, columns), min(source.k, target.k)
@@ -110,6 +109,6 @@ def _spread_vertices(psi: Floats, samples: int) -> Integers:
     Differences of all of the first k eigenvectors measure distances about alike everywhere.
     """
     n, k = psi.shape
-    if as_count(samples, "samples", least=k) > n:
+    if whole("samples", samples, least=k) > n:
         raise BeltramiError(f"{samples} samples are more than the {n} target vertices")
     return spread_rows(psi, samples)
