@@ -20,6 +20,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from beltrami import errors as errors
+    from beltrami.compression.compress import compress as compress
+    from beltrami.compression.compress import vertex_order as vertex_order
+    from beltrami.compression.decompress import decompress as decompress
     from beltrami.diffusion.heat import heat as heat
     from beltrami.diffusion.smooth_mesh import smooth_mesh as smooth_mesh
     from beltrami.diffusion.smoothing import smooth as smooth
@@ -102,9 +105,11 @@ _HOME = {
     "as_mesh": "mesh.convert",
     "ball_average_laplacian": "surfaces.ball_average",
     "colouring": "operators.colouring",
+    "compress": "compression.compress",
     "conjugate_gradients": "solvers.conjugate_gradients",
     "convolve": "grids.convolution",
     "curvature": "operators.curvature",
+    "decompress": "compression.decompress",
     "dft": "grids.transform",
     "diagnose": "mesh.diagnose",
     "dirichlet_energy": "operators.energy",
@@ -134,6 +139,7 @@ _HOME = {
     "smooth": "diffusion.smoothing",
     "smooth_mesh": "diffusion.smooth_mesh",
     "vertex_areas": "operators.areas",
+    "vertex_order": "compression.compress",
     "write_mesh": "io.registry",
 }
 _MODULES = {"errors": "errors", "shapes": "mesh.shapes"}
