@@ -21,7 +21,8 @@ from beltrami.compression.range_coder import (
 from beltrami.compression.tables import whole
 from beltrami.compression.varint import Reader
 
-_NEAR = 32  # ranks to both sides of the last one that are coded as steps
+_NEAR = 32  # ranks to both sides of the expected one that are coded as steps, at most;
+_SHARE = 6  # and at most 2^-6 of those that are left
 
 
 def encode_order(order: Integers) -> bytes:
@@ -70,10 +71,12 @@ def _code_order(order: Any, tree: Any, models: Any, state: Any, buffer: Any) -> 
         left = n - i
         rank = _rank(tree, order[i])
         step = rank - expected
-        last = near
-        near = code(1 if -_NEAR < step < _NEAR else 0, models[1, last], state, buffer)
-        adapt(models[1], last, near)
-        if near:
+        window = min(_NEAR, left >> _SHARE)
+        if window:
+            last = near
+            near = code(1 if -window < step < window else 0, models[1, last], state, buffer)
+            adapt(models[1], last, near)
+        if window and near:
             step = code_number(2 * step if step >= 0 else -2 * step - 1, models[0], state, buffer)
             rank = expected + (step // 2 if step % 2 == 0 else -(step + 1) // 2)
             rank = min(max(rank, 0), left - 1)
