@@ -57,13 +57,9 @@ def with_checksums(data):
 
 
 def attempt(data):
-    for read in (
-        lambda d: bt.decompress(d, max_vertices=LIMIT),
-        describe,
-        lambda d: unpack(d, "x"),
-    ):
+    for read, options in ((bt.decompress, {"max_vertices": LIMIT}), (describe, {})):
         try:
-            result = read(data)
+            result = read(data, **options)
         except FileFormatError:
             continue
         if isinstance(result, Mesh):
