@@ -107,6 +107,8 @@ class Row:
         CPU seconds of this process, unless the work is done by others.
     memory
         Whether the peak memory of one run means something.
+    on_demand
+        Measured only when asked for by name: it takes many minutes.
     """
 
     name: str
@@ -118,3 +120,4 @@ class Row:
     runs: int = 7
     clock: Callable[[], float] = time.process_time
     memory: bool = True
+    on_demand: bool = False

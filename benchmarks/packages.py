@@ -16,6 +16,7 @@ DISTRIBUTIONS = (
     "meshio",
     "potpourri3d",
     "pyamg",
+    "pygsp",
     "pymeshlab",
     "pyvista",
     "robust_laplacian",

@@ -17,6 +17,7 @@ from beltrami.operators.energy import ROUTES
 from beltrami.operators.integrals import PLACES
 from beltrami.operators.pair import INTRINSIC, MASSES, TUFTED
 from beltrami.operators.weights import SYMMETRIC_WEIGHTS
+from beltrami.spectrum.filtering import FILTER_METHODS
 
 WEIGHTS = (*SYMMETRIC_WEIGHTS, INTRINSIC, TUFTED)
 
@@ -35,12 +36,24 @@ def _pairs(mesh, f):
                 yield pair.averaging, pair.gradient
 
 
+def _filters(mesh, f):
+    """Filters of each method, and wavelets, for masses of each kind."""
+    for mass in ("voronoi", "degree", "consistent"):
+        pair = bt.laplacian(mesh, mass=mass)
+        high = pair.spectral_bound()
+        for h in (bt.kernels.Heat(9 / high), bt.kernels.LowPass(high / 2, high / 3)):
+            for method in FILTER_METHODS:
+                yield bt.filter(pair, f, h, method, tolerance=1e-5)
+        yield bt.meyer_frame(high, 2).analyze(pair, f, tolerance=1e-5)
+
+
 def _fields(result):
     return vars(result).values()
 
 
 CALLS = {
     "pairs": _pairs,
+    "filters": _filters,
     "curvature": lambda mesh, f: _fields(bt.curvature(mesh)),
     "triangles": lambda mesh, f: _fields(bt.intrinsic_delaunay(mesh)),
     "cover": lambda mesh, f: _fields(bt.intrinsic_delaunay(mesh, cover=True)),

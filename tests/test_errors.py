@@ -6,6 +6,7 @@ import pytest
 
 from beltrami import errors
 from beltrami.errors import (
+    ApproximationError,
     BeltramiError,
     ConvergenceError,
     FileFormatError,
@@ -18,6 +19,7 @@ from beltrami.errors import (
     SingularMatrixError,
     StepTooLongError,
     SurfaceError,
+    TruncationError,
     UnknownNameError,
     check_name,
 )
@@ -26,15 +28,25 @@ EXAMPLES = (
     MeshError("bad", vertices=[3, 1], faces=[2], edges=[[0, 1]], remedy="Mend it."),
     NotManifoldError("bad", edges=np.array([[4, 5]])),
     StepTooLongError(2.0, 0.5),
+    TruncationError(0.25, 12),
     SingularMatrixError("singular", rows=[7]),
     NotPositiveDefiniteError([3, 4]),
     ConvergenceError("late"),
+    ApproximationError("far", 0.5, "Come nearer."),
     UnknownNameError("weights", "cotan", ("cotangent", "distance")),
     FileFormatError("a.obj", "no number", line=7),
     RankLossError("no immersion", parameters=[[0.0, 1.5]], remedy="Move."),
     FileFormatError("a.ply", "too short", byte=0),
     MissingExtraError("trimesh", "io", "reading"),
 )
+
+
+@pytest.mark.parametrize("thing", [np.eye(40), "x" * 999, list(range(999)), {"a": "b\nc"}])
+def test_what_was_given_is_shown_in_one_short_line(thing):
+    said = errors.shown(thing)
+    assert len(said) <= 60
+    assert "\n" not in said
+    assert said[:5] == repr(thing)[:5]
 
 
 @pytest.mark.parametrize("name", errors.__all__)
@@ -74,7 +86,8 @@ def test_the_kinds_of_mesh_errors(name):
     cls = getattr(errors, name)
     others = (StepTooLongError, SingularMatrixError, ConvergenceError, UnknownNameError)
     others += (FileFormatError, MissingExtraError, BeltramiError, NotPositiveDefiniteError)
-    others += (SurfaceError, RankLossError, NotDifferentiableError)
+    others += (SurfaceError, RankLossError, NotDifferentiableError, TruncationError)
+    others += (ApproximationError,)
     assert issubclass(cls, MeshError) != (cls in others)
 
 

@@ -28,6 +28,9 @@ def test_two_million_vertices(tmp_path):
         for steps in (0, 5, 50)
     ]
     assert energy[0] > energy[1] > energy[2]
+    warm = bt.filter(pair, mesh.vertices, bt.kernels.Heat(1e-5 * mesh.area))
+    assert np.allclose(pair.mean(warm), pair.mean(mesh.vertices), atol=1e-7)
+    assert 0.5 < pair.dirichlet_energy(warm) / pair.dirichlet_energy(mesh.vertices) < 1
     for suffix in (".ply", ".obj", ".off"):
         path = tmp_path / f"large{suffix}"
         bt.write_mesh(path, mesh)

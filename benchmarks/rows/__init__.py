@@ -5,7 +5,10 @@ from __future__ import annotations
 from benchmarks.claims import Row
 from benchmarks.rows.adjacency import ADJACENCY
 from benchmarks.rows.assembly import ASSEMBLY
+from benchmarks.rows.convolving import CONVOLUTIONS
+from benchmarks.rows.eigenpairs import EIGEN_50, EIGEN_200, EIGEN_500, EIGEN_LARGE
 from benchmarks.rows.factorizing import FACTORIZE, FACTORIZE_LARGE, SOLVE_3, SOLVE_64
+from benchmarks.rows.filtering import FILTERING
 from benchmarks.rows.geodesics import GEODESICS, GEODESICS_PREPARED
 from benchmarks.rows.intrinsic import INTRINSIC
 from benchmarks.rows.iterating import CONJUGATE_GRADIENTS
@@ -19,15 +22,21 @@ ROWS: tuple[Row, ...] = (
     GEODESICS,
     GEODESICS_PREPARED,
     SMOOTHING,
+    FILTERING,
     ADJACENCY,
     FACTORIZE,
     FACTORIZE_LARGE,
     SOLVE_3,
     SOLVE_64,
+    EIGEN_50,
+    EIGEN_200,
+    EIGEN_500,
+    EIGEN_LARGE,
     CONJUGATE_GRADIENTS,
     READ_OBJ,
     READ_OFF,
     READ_PLY,
+    *CONVOLUTIONS,
     IMPORT,
     FIRST_CALL,
 )

@@ -23,9 +23,18 @@ if TYPE_CHECKING:
     from beltrami.compression.compress import compress as compress
     from beltrami.compression.compress import vertex_order as vertex_order
     from beltrami.compression.decompress import decompress as decompress
+    from beltrami.diffusion.bumps import gaussian_bumps as gaussian_bumps
+    from beltrami.diffusion.denoise import Denoised as Denoised
+    from beltrami.diffusion.denoise import denoise as denoise
+    from beltrami.diffusion.denoise_function import DenoisedFunction as DenoisedFunction
+    from beltrami.diffusion.denoise_function import denoise_function as denoise_function
     from beltrami.diffusion.heat import heat as heat
+    from beltrami.diffusion.interpolate import interpolate as interpolate
+    from beltrami.diffusion.poisson import poisson as poisson
+    from beltrami.diffusion.regularize import regularize as regularize
     from beltrami.diffusion.smooth_mesh import smooth_mesh as smooth_mesh
     from beltrami.diffusion.smoothing import smooth as smooth
+    from beltrami.diffusion.wave import wave as wave
     from beltrami.display.light import DirectionalLight as DirectionalLight
     from beltrami.display.light import SpotLight as SpotLight
     from beltrami.display.render import render as render
@@ -69,10 +78,34 @@ if TYPE_CHECKING:
     from beltrami.solvers.conjugate_gradients import conjugate_gradients as conjugate_gradients
     from beltrami.solvers.factor import Factor as Factor
     from beltrami.solvers.factorize import factorize as factorize
+    from beltrami.solvers.inverse_iteration import InverseIteration as InverseIteration
     from beltrami.solvers.iteration import IterativeSolution as IterativeSolution
     from beltrami.solvers.minres import minres as minres
+    from beltrami.spectrum import kernels as kernels
     from beltrami.spectrum.basis import FourierBasis as FourierBasis
+    from beltrami.spectrum.correspondence import FunctionalMap as FunctionalMap
+    from beltrami.spectrum.correspondence import (
+        functional_map_from_points as functional_map_from_points,
+    )
+    from beltrami.spectrum.distances import spectral_distance as spectral_distance
+    from beltrami.spectrum.distances import spectral_embedding as spectral_embedding
+    from beltrami.spectrum.filtering import filter as filter  # noqa: A004
     from beltrami.spectrum.fourier_basis import fourier_basis as fourier_basis
+    from beltrami.spectrum.frames import Frame as Frame
+    from beltrami.spectrum.functional_map import functional_map as functional_map
+    from beltrami.spectrum.heat_kernel import heat_kernel_signature as heat_kernel_signature
+    from beltrami.spectrum.inverse_iteration import inverse_iteration as inverse_iteration
+    from beltrami.spectrum.load_basis import load_basis as load_basis
+    from beltrami.spectrum.nodal_domains import NodalDomains as NodalDomains
+    from beltrami.spectrum.nodal_domains import nodal_domains as nodal_domains
+    from beltrami.spectrum.segment import Segmentation as Segmentation
+    from beltrami.spectrum.segment import segment as segment
+    from beltrami.spectrum.shape_dna import shape_dna as shape_dna
+    from beltrami.spectrum.signature import Signature as Signature
+    from beltrami.spectrum.wave_kernel import wave_kernel_signature as wave_kernel_signature
+    from beltrami.spectrum.wavelets import mexican_hat_frame as mexican_hat_frame
+    from beltrami.spectrum.wavelets import meyer_frame as meyer_frame
+    from beltrami.spectrum.zoomout import zoomout as zoomout
     from beltrami.surfaces.atlas import Atlas as Atlas
     from beltrami.surfaces.ball_average import ball_average_laplacian as ball_average_laplacian
     from beltrami.surfaces.domain import Disk as Disk
@@ -85,21 +118,29 @@ __version__ = "0.1.0"
 _HOME = {
     "Atlas": "surfaces.atlas",
     "Curvature": "operators.curvature",
+    "Denoised": "diffusion.denoise",
+    "DenoisedFunction": "diffusion.denoise_function",
     "Diagnosis": "mesh.diagnose",
     "DirectionalLight": "display.light",
     "Disk": "surfaces.domain",
     "Factor": "solvers.factor",
     "FourierBasis": "spectrum.basis",
+    "Frame": "spectrum.frames",
+    "FunctionalMap": "spectrum.correspondence",
     "Grid": "grids.grid",
     "HeatMethod": "geodesics.heat_method",
     "IntrinsicTriangulation": "operators.intrinsic",
+    "InverseIteration": "solvers.inverse_iteration",
     "IterativeSolution": "solvers.iteration",
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
+    "NodalDomains": "spectrum.nodal_domains",
     "ParametricSurface": "surfaces.surface",
     "PointCloud": "operators.point_cloud",
     "Rectangle": "surfaces.domain",
     "Repair": "mesh.repair",
+    "Segmentation": "spectrum.segment",
+    "Signature": "spectrum.signature",
     "SpotLight": "display.light",
     "Topology": "mesh.topology",
     "as_mesh": "mesh.convert",
@@ -110,6 +151,8 @@ _HOME = {
     "convolve": "grids.convolution",
     "curvature": "operators.curvature",
     "decompress": "compression.decompress",
+    "denoise": "diffusion.denoise",
+    "denoise_function": "diffusion.denoise_function",
     "dft": "grids.transform",
     "diagnose": "mesh.diagnose",
     "dirichlet_energy": "operators.energy",
@@ -120,29 +163,49 @@ _HOME = {
     "face_divergence": "operators.gradient",
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
+    "filter": "spectrum.filtering",
     "fourier_basis": "spectrum.fourier_basis",
+    "functional_map": "spectrum.functional_map",
+    "functional_map_from_points": "spectrum.correspondence",
+    "gaussian_bumps": "diffusion.bumps",
     "geodesic_distance": "geodesics.distance",
     "heat": "diffusion.heat",
+    "heat_kernel_signature": "spectrum.heat_kernel",
     "idft": "grids.transform",
     "integrate": "operators.integrals",
+    "interpolate": "diffusion.interpolate",
     "intrinsic_delaunay": "operators.intrinsic",
+    "inverse_iteration": "spectrum.inverse_iteration",
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",
+    "load_basis": "spectrum.load_basis",
+    "mexican_hat_frame": "spectrum.wavelets",
+    "meyer_frame": "spectrum.wavelets",
     "minres": "solvers.minres",
+    "nodal_domains": "spectrum.nodal_domains",
     "plot_spectrum": "display.spectrum_plot",
+    "poisson": "diffusion.poisson",
     "project": "operators.projection",
     "read_function": "io.function",
     "read_mesh": "io.registry",
+    "regularize": "diffusion.regularize",
     "render": "display.render",
     "repair": "mesh.repair",
+    "segment": "spectrum.segment",
+    "shape_dna": "spectrum.shape_dna",
     "smooth": "diffusion.smoothing",
     "smooth_mesh": "diffusion.smooth_mesh",
+    "spectral_distance": "spectrum.distances",
+    "spectral_embedding": "spectrum.distances",
     "vertex_areas": "operators.areas",
     "vertex_order": "compression.compress",
+    "wave": "diffusion.wave",
+    "wave_kernel_signature": "spectrum.wave_kernel",
     "write_mesh": "io.registry",
+    "zoomout": "spectrum.zoomout",
 }
-_MODULES = {"errors": "errors", "shapes": "mesh.shapes"}
+_MODULES = {"errors": "errors", "kernels": "spectrum.kernels", "shapes": "mesh.shapes"}
 
 __all__ = sorted([*_HOME, *_MODULES])
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import operator
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 from scipy.sparse import csr_array
 
-from beltrami.errors import DimensionError, MeshError, NonFiniteError
+from beltrami.errors import DimensionError, MeshError, NonFiniteError, shown
 
 Floats: TypeAlias = NDArray[np.float64]
 Integers: TypeAlias = NDArray[np.int64]
@@ -124,3 +125,27 @@ def as_indices(indices: ArrayLike, n: int, what: str) -> Integers:
     if len(outside):
         raise MeshError(f"{what} outside 0..{n - 1}", vertices=outside)
     return flat
+
+
+def whole(name: str, value: Any, least: int, most: int = 2**53) -> int:
+    """Return a whole number from ``least`` to ``most``.
+
+    Raises
+    ------
+    MeshError
+        If it is not an integer, or too small or large.
+
+    Examples
+    --------
+    >>> whole("nx", 4, least=1)
+    4
+    """
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise MeshError(f"{name} is {shown(value)} where a whole number is needed") from None
+    if number < least:
+        raise MeshError(f"{name} is {number} where {least} or more is needed")
+    if number > most:
+        raise MeshError(f"{name} is {number} where {most} at the most is possible")
+    return number

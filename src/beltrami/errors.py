@@ -10,12 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
+    "ApproximationError",
     "BeltramiError",
     "ConvergenceError",
     "DegenerateFaceError",
     "DimensionError",
     "EmptyMeshError",
     "FileFormatError",
+    "IncompatibleError",
     "MeshError",
     "MissingExtraError",
     "NegativeWeightError",
@@ -29,11 +31,13 @@ __all__ = [
     "SingularMatrixError",
     "StepTooLongError",
     "SurfaceError",
+    "TruncationError",
     "UnknownNameError",
     "UnreferencedVertexError",
 ]
 
 _SHOWN = 5
+_LONGEST = 60
 
 
 def _named(kind: str, indices: NDArray[Any]) -> str:
@@ -41,6 +45,18 @@ def _named(kind: str, indices: NDArray[Any]) -> str:
     shown = ", ".join(str(i if np.ndim(i) == 0 else tuple(i)) for i in indices[:_SHOWN].tolist())
     more = len(indices) - _SHOWN
     return f"{kind} {shown}" + (f" and {more} more" if more > 0 else "")
+
+
+def shown(value: object) -> str:
+    """Write what a user gave in one short line, for a message.
+
+    Examples
+    --------
+    >>> shown(np.eye(2)), shown("x" * 99)
+    ('array([[1., 0.], [0., 1.]])', "'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...")
+    """
+    text = " ".join(repr(value).split())
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."
 
 
 def _rebuild(cls: type[BeltramiError], args: tuple[Any, ...], state: dict[str, Any]) -> Any:
@@ -126,6 +142,10 @@ class NegativeWeightError(MeshError):
     """The operation needs non-negative weights; ``edges`` lists those that are not."""
 
 
+class IncompatibleError(MeshError):
+    """A Poisson problem without a solution; ``vertices`` has one of each component at fault."""
+
+
 class SurfaceError(BeltramiError, ValueError):
     """A parametric surface is not what the operation needs; ``parameters`` are the guilty (u, v).
 
@@ -167,6 +187,17 @@ class StepTooLongError(BeltramiError, ValueError):
         )
 
 
+class TruncationError(BeltramiError, ValueError):
+    """A basis leaves out more than was allowed: ``left_out`` of the norm of the function."""
+
+    def __init__(self, left_out: float, count: int) -> None:
+        self.left_out = left_out
+        super().__init__(
+            f"the {count} modes of the basis leave out up to {left_out:.2g} of the norm of the "
+            "result. Take more modes, another method, or a larger tolerance"
+        )
+
+
 class SingularMatrixError(BeltramiError, ValueError):
     """A matrix to factorise is singular (to working precision); ``rows`` are without a pivot."""
 
@@ -197,6 +228,25 @@ class ConvergenceError(BeltramiError, RuntimeError):
         super().__init__(problem)
 
 
+class ApproximationError(ConvergenceError):
+    """A function of a matrix is not as near as it was wanted.
+
+    Parameters
+    ----------
+    problem
+        What is wrong, without a final stop.
+    estimate
+        The error reached, beside the largest value of the function.
+    remedy
+        What to do about it, as a sentence.
+    """
+
+    def __init__(self, problem: str, estimate: float, remedy: str) -> None:
+        self.estimate = estimate
+        self.remedy = remedy
+        super().__init__(f"{problem}. {remedy}")
+
+
 class UnknownNameError(BeltramiError, ValueError):
     """A name of a method or kind that does not exist; ``choices`` lists those that do."""
 
@@ -206,7 +256,7 @@ class UnknownNameError(BeltramiError, ValueError):
         near = difflib.get_close_matches(str(name), self.choices, n=1)
         hint = f" Did you mean {near[0]!r}?" if near else ""
         listed = ", ".join(repr(choice) for choice in self.choices)
-        super().__init__(f"unknown {what} {name!r}: choose one of {listed}.{hint}")
+        super().__init__(f"unknown {what} {shown(name)}: choose one of {listed}.{hint}")
 
 
 class FileFormatError(BeltramiError, ValueError):

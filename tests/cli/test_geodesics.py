@@ -48,3 +48,10 @@ def test_options_that_do_not_fit(beltrami, sphere, tmp_path, words, code, text):
     done = beltrami("geodesics", sphere, "-o", tmp_path / "d.npy", *words)
     assert done.exit_code == code
     assert text in done.stderr
+
+
+def test_long_work_is_announced(beltrami, sphere, tmp_path, monkeypatch):
+    monkeypatch.setattr("beltrami.cli.geodesics._MANY", 10)
+    words = ("geodesics", sphere, "--source", 3, "-o", tmp_path / "d.npy")
+    assert "may take minutes" in beltrami(*words, "--method", "exact").stderr
+    assert "minutes" not in beltrami(*words).stderr

@@ -52,3 +52,43 @@ def test_data_of_the_wrong_length(beltrami, sphere, tmp_path):
     assert done.exit_code == 1
     assert "(3,)" in done.stderr
     assert "(162,)" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "options"),
+    [
+        (("--method", "exact"), {"method": "exact"}),
+        (("--method", "spectral"), {"method": "spectral"}),
+        (
+            ("--method", "crank_nicolson", "--steps", 7, "--damped-steps", 2),
+            {"method": "crank_nicolson", "steps": 7, "damped_steps": 2},
+        ),
+    ],
+)
+def test_methods(beltrami, sphere, tmp_path, arguments, options):
+    np.save(tmp_path / "f.npy", read_mesh(sphere).vertices[:, 1])
+    output = tmp_path / "h.npy"
+    arguments = ("--data", tmp_path / "f.npy", "--time", 0.1, *arguments, "-o", output)
+    done = beltrami("heat", sphere, *arguments)
+    assert done.exit_code == 0, done.stderr
+    pair = laplacian(read_mesh(sphere))
+    np.testing.assert_array_equal(
+        np.load(output), heat(pair, np.load(arguments[1]), 0.1, **options)
+    )
+
+
+def test_modes(beltrami, sphere, tmp_path):
+    output = tmp_path / "h.npy"
+    arguments = ("heat", sphere, "--source", 3, "--modes", 20, "-o", output, "--time")
+    done = beltrami(*arguments, 0.8, "--method", "spectral")
+    assert done.exit_code == 0, done.stderr
+    pair = laplacian(read_mesh(sphere))
+    unit = np.zeros(pair.n)
+    unit[3] = 1 / pair.masses[3]
+    np.testing.assert_allclose(np.load(output), heat(pair, unit, 0.8, "exact"), atol=1e-6)
+    done = beltrami(*arguments, 0.01, "--method", "spectral")
+    assert done.exit_code == 1
+    assert "20 modes" in done.stderr
+    done = beltrami(*arguments, 0.01)
+    assert done.exit_code == 2
+    assert "--method spectral" in done.stderr

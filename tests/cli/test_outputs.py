@@ -44,6 +44,8 @@ def test_a_folder_that_cannot_be_written(check, suffix, tmp_path, monkeypatch):
         ("render",),
         ("repair", "--all"),
         ("smooth", "--data", "f.npy"),
+        ("wave", "--time", 1, "--bump", 0),
+        ("regularize", "--time", 1, "--data", "f.npy"),
     ],
 )
 def test_each_verb_looks_before_it_reads(beltrami, arguments, tmp_path):
@@ -52,3 +54,19 @@ def test_each_verb_looks_before_it_reads(beltrami, arguments, tmp_path):
     assert done.exit_code == 1
     assert "'.xyz'" in done.stderr
     assert "missing.obj" not in done.stderr
+
+
+def test_frames_go_to_a_file_or_a_folder(tmp_path, monkeypatch):
+    for suffix in (".npy", ".gif", ".webp", ""):
+        assert outputs.check_frames_output(tmp_path / f"new{suffix}") == suffix
+    (tmp_path / "v1.5").mkdir()
+    assert outputs.check_frames_output(tmp_path / "v1.5") == ""
+    with pytest.raises(UnknownNameError, match="a folder has no suffix"):
+        outputs.check_frames_output(tmp_path / "new.png")
+    with pytest.raises(FileNotFoundError, match="No such folder"):
+        outputs.check_frames_output(tmp_path / "nowhere" / "new")
+    assert sorted(os.listdir(tmp_path)) == ["v1.5"]
+    monkeypatch.setattr(os, "access", lambda *_: False)
+    for name in ("v1.5", "new", "new.npy"):
+        with pytest.raises(PermissionError, match="cannot be written"):
+            outputs.check_frames_output(tmp_path / name)

@@ -8,10 +8,10 @@ import sys
 from pathlib import Path
 
 import pytest
-from golden_files import FOLDER, digest, examples
 
 import beltrami as bt
 from beltrami.compression.container import VERSION
+from golden_files import FOLDER, digest, examples
 
 DIGESTS = json.loads((FOLDER / "digests.json").read_text(encoding="utf-8"))
 
@@ -59,7 +59,7 @@ def run(program, arguments, **environment):
 
 def python_path():
     source = Path(bt.__file__).parents[1]
-    return os.pathsep.join([str(source), str(Path(__file__).parent)])
+    return os.pathsep.join([str(source), str(Path(__file__).parents[1])])
 
 
 def test_another_process_with_other_threads():

@@ -42,3 +42,27 @@ def test_implicit_steps_with_areas(mass):
     errors = [pair.norm(heat(pair, f, 0.02, steps=int(k)) - exact) for k in STEPS]
     slope = np.polyfit(np.log(1 / STEPS), np.log(errors), 1)[0]
     assert slope == pytest.approx(1, abs=0.08)
+
+
+@pytest.mark.parametrize("mass", ["degree", "voronoi", "consistent"])
+@pytest.mark.parametrize("damped", [0, 2])
+@pytest.mark.parametrize("hold", [False, True])
+def test_crank_and_nicolson_are_of_second_order(mass, damped, hold):
+    """With damped steps too, with a source and with held values."""
+    mesh = MESHES["cur"]()
+    pair = laplacian(mesh, mass=mass)
+    x, y, _ = mesh.vertices.T
+    f, s = np.exp(-20 * ((x - 0.4) ** 2 + (y - 0.6) ** 2)), x * y
+    held = (np.arange(pair.n) < 5) & hold
+    time = 2.0 if mass == "degree" else 0.02
+    exact = heat(pair, f, time, "exact", source=s, hold=held)
+
+    def slope(method, **options):
+        errors = [
+            pair.norm(heat(pair, f, time, method, int(k), source=s, hold=held, **options) - exact)
+            for k in STEPS
+        ]
+        return np.polyfit(np.log(1 / STEPS), np.log(errors), 1)[0]
+
+    assert slope("crank_nicolson", damped_steps=damped) == pytest.approx(2, abs=0.1)
+    assert slope("implicit") == pytest.approx(1, abs=0.1)

@@ -194,7 +194,7 @@ def test_what_is_refused():
     f = np.zeros(192)
     with pytest.raises(UnknownNameError, match="Did you mean 'implicit'") as caught:
         heat(pair, f, 1, "implicite")
-    assert caught.value.choices == ("implicit", "explicit")
+    assert caught.value.choices[:2] == ("implicit", "explicit")
     for time in (-1.0, np.nan, np.inf):
         with pytest.raises(BeltramiError, match="time must be"):
             heat(pair, f, time)

@@ -5,8 +5,8 @@ import pytest
 from PIL import Image
 
 from beltrami.display import images
-from beltrami.display.images import check_suffix, write_image
-from beltrami.errors import UnknownNameError
+from beltrami.display.images import ANIMATED, check_suffix, write_animation, write_image
+from beltrami.errors import BeltramiError, UnknownNameError
 
 
 @pytest.fixture
@@ -58,3 +58,29 @@ def test_the_same_picture_is_the_same_file(tmp_path, picture):
     write_image(tmp_path / "a.png", picture)
     write_image(tmp_path / "b.png", picture)
     assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
+
+
+@pytest.mark.parametrize("suffix", ANIMATED)
+def test_animations_have_all_frames(tmp_path, suffix):
+    images = [np.full((8, 6, 3), shade, np.uint8) for shade in (0, 90, 200)]
+    path = tmp_path / f"a{suffix}"
+    write_animation(path, iter(images), 50)
+    with Image.open(path) as picture:
+        assert picture.n_frames == 3
+        for k, image in enumerate(images):
+            picture.seek(k)
+            assert np.array_equal(np.asarray(picture.convert("RGB")), image)
+            assert picture.info["duration"] == 20
+        assert picture.info["loop"] == 0
+
+
+def test_animations_that_cannot_be(tmp_path):
+    image = np.zeros((4, 4, 3), np.uint8)
+    with pytest.raises(UnknownNameError):
+        write_animation(tmp_path / "a.png", [image], 10)
+    for rate in (0, -1, np.inf, np.nan):
+        with pytest.raises(BeltramiError, match="pictures a second"):
+            write_animation(tmp_path / "a.gif", [image], rate)
+    with pytest.raises(BeltramiError, match="needs a picture"):
+        write_animation(tmp_path / "a.gif", [], 10)
+    assert not list(tmp_path.iterdir())

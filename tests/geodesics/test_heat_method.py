@@ -197,6 +197,15 @@ def test_in_the_maze_it_walks_around_corners():
     assert mean_error(geodesic_distance(mesh, source), exact) < 0.05
 
 
+@pytest.mark.parametrize("time", [1e18, 1e300, 1e308])
+@pytest.mark.parametrize("intrinsic", [False, True])
+def test_a_time_in_which_the_mass_is_rounded_away_is_refused(intrinsic, time):
+    mesh = MESHES["pl"]()
+    with pytest.raises(BeltramiError, match="spread evenly"):
+        HeatMethod(mesh, time=time, intrinsic=intrinsic)
+    assert np.isfinite(HeatMethod(mesh, time=1e6, intrinsic=intrinsic).distance(0)).all()
+
+
 def test_wrong_options():
     mesh = MESHES["pl"]()
     for time in (0, -1.0, np.nan, np.inf, "a", [1.0], np.ones(2), 1j):

@@ -14,6 +14,7 @@ from beltrami.grids import convolution
 from beltrami.grids.convolution import cheaper_method, convolve, convolve_repeatedly, symbol
 from beltrami.grids.grid import Grid
 from beltrami.grids.transform import dft
+from beltrami.grids.transform_cost import transform_cost
 
 
 def matrix_of(w):
@@ -69,8 +70,25 @@ def test_the_cheaper_method_is_taken(monkeypatch):
     convolve(f, grid.laplacian_kernel())
     convolve(f, f)
     assert taken == ["_direct", "_by_fft"]
-    assert cheaper_method(2**20, 10) == "direct"
-    assert cheaper_method(2**20, 11) == "fft"
+    assert cheaper_method((1024, 1024), 11) == "direct"
+    assert cheaper_method((1024, 1024), 12) == "fft"
+    assert cheaper_method((4, 4), 3) == "fft"  # calls cost more than moving what there is
+
+
+@pytest.mark.chapter("P28")
+@pytest.mark.parametrize(
+    ("shape", "passes"),
+    [((1,), 0), ((2,), 2), ((64,), 12), ((30, 30), 20), ((7, 11), 19.8), ((2**13,), 65)],
+)
+def test_transforms_cost_the_sum_of_the_prime_factors(shape, passes):
+    assert transform_cost(shape) == pytest.approx(passes)
+
+
+def test_large_prime_factors_cost_a_detour_of_twice_the_length():
+    assert transform_cost((61,)) == pytest.approx(67.1)  # 1.1 times 61: no detour
+    assert transform_cost((1021,)) < 1021 / 4
+    assert transform_cost((1021,)) > 4 * transform_cost((1024,))
+    assert transform_cost((1021, 8)) == transform_cost((8, 1021))
 
 
 @pytest.mark.chapter("P28")
@@ -144,3 +162,19 @@ def test_kernels_are_first_columns_of_the_matrices(shape, kind):
         assert np.allclose(kernel.ravel(), matrix[:, [0]].toarray().ravel(), rtol=1e-14)
         f = np.random.default_rng(9).normal(size=grid.n_vertices)
         assert np.allclose(convolve(f.reshape(shape), kernel).ravel(), matrix @ f, atol=1e-12)
+
+
+@pytest.mark.parametrize("shape", [(1,), (2,), (7,), (8,), (5, 4), (1, 6), (3, 4, 5)])
+@pytest.mark.parametrize("complex_kernel", [False, True])
+def test_shifts_of_any_length_go_round(shape, complex_kernel):
+    """Dense kernels, so that every shift from 0 to p - 1 is made along each axis."""
+    rng = np.random.default_rng(16)
+    f, w = rng.normal(size=(2, *shape))
+    w = w * (1 + 2j) if complex_kernel else w
+    wanted = sum(w[k] * np.roll(f, k, range(f.ndim)) for k in np.ndindex(shape))
+    np.testing.assert_allclose(convolve(f, w, "direct"), wanted, rtol=1e-12, atol=1e-12)
+    one = np.where(np.arange(f.size).reshape(shape) == f.size - 1, w, 0)  # a kernel of one value
+    last = tuple(p - 1 for p in shape)
+    wanted = w[last] * np.roll(f, last, range(f.ndim))
+    assert np.array_equal(convolve(f, one, "direct"), wanted)
+    assert not convolve(f, 0 * w, "direct").any()

@@ -89,6 +89,12 @@ def test_vertex_data_have_a_row_for_each_vertex():
             Mesh(X, F, {"bad": wrong})
 
 
+@pytest.mark.parametrize("data", ["f", 3, [1.0, 2.0], np.zeros(4), False])
+def test_vertex_data_have_names(data):
+    with pytest.raises(MeshError, match="vertex_data maps names to arrays"):
+        Mesh(np.zeros((4, 3)), [[0, 1, 2]], data)
+
+
 def test_inputs_are_neither_changed_nor_followed():
     x, f, data, uv = X.copy(), F.copy(), {"a": np.arange(4.0)}, np.zeros((4, 3, 2))
     mesh = Mesh(x, f, data, uv)

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from beltrami.errors import UnknownNameError
+from beltrami.errors import MeshError, UnknownNameError
 from beltrami.mesh.rings import RING_KINDS, adjacency_matrix, incident_faces, vertex_ring
 from beltrami.mesh.shapes import torus
 from beltrami.mesh.topology import Topology
@@ -123,3 +123,24 @@ def test_adjacency_is_symmetric_with_ones_and_no_diagonal(pair):
                 for b in face:
                     dense[a, b] = a != b
     assert np.array_equal(topology.adjacency.toarray(), dense)
+
+
+@pytest.mark.parametrize("wrong", [1.5, "a", None, [1], np.nan, -1, 42, 10**30])
+def test_a_vertex_is_a_number_of_one(wrong):
+    topology = torus(7, 6).topology
+    assert topology.ring(np.int8(41)).tolist() == topology.ring(41).tolist()
+    for refused in (topology.ring, topology.face_ring):
+        with pytest.raises(MeshError, match="vertex"):
+            refused(wrong)
+
+
+@pytest.mark.parametrize("wrong", [1.5, "a", None, [1], np.nan, -1])
+def test_the_radius_of_a_ring_is_a_whole_number(wrong):
+    with pytest.raises(MeshError, match="the radius of a ring"):
+        torus(7, 6).ring(0, wrong)
+
+
+def test_rings_beyond_the_mesh_end_at_once():
+    topology = torus(7, 6).topology
+    assert not len(topology.ring(0, 10**12))
+    assert len(topology.ring(0, 10**12, "ball")) == 41

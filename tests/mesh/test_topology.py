@@ -20,6 +20,7 @@ from strategies import any_arrays, closed_meshes, moebius
 
 DERIVED = (
     "boundary_edges",
+    "on_boundary",
     "non_manifold_edges",
     "referenced",
     "non_manifold_vertices",
@@ -217,6 +218,8 @@ def test_edges_by_a_dictionary(pair):
 
     assert topology.edges.tolist() == those(lambda runs: True)
     assert topology.boundary_edges.tolist() == those(lambda runs: len(runs) == 1)
+    ends = sorted({v for edge in those(lambda runs: len(runs) == 1) for v in edge})
+    assert np.flatnonzero(topology.on_boundary).tolist() == ends
     assert topology.non_manifold_edges.tolist() == those(lambda runs: len(runs) > 2)
     wrong = those(lambda runs: len(runs) == 2 and runs[0] == runs[1])
     assert sorted(topology.inconsistent_edges.tolist()) == wrong
@@ -474,3 +477,9 @@ def test_a_face_that_names_a_vertex_twice_changes_no_number():
     for extra in ([[0, 0, 4]], [[4, 4, 4], [5, 5, 5]]):
         topology = Topology(np.concatenate([TETRAHEDRON, extra]))
         assert (topology.euler_characteristic, topology.genus, topology.n_components) == (2, 0, 1)
+
+
+@pytest.mark.parametrize("wrong", ["a", 4.0, np.nan, [4], -1])
+def test_the_number_of_vertices_is_a_whole_number(wrong):
+    with pytest.raises(MeshError, match="the number of vertices"):
+        Topology(TETRAHEDRON, wrong)

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators import flips
+from beltrami.operators.face_parts import face_numbers
 from meshes_of_the_errata import flipped
 
 
@@ -52,6 +53,22 @@ def test_a_flip_out_of_the_quadrilateral_is_refused_and_changes_nothing():
     assert np.array_equal(double, before[1])
 
 
+def test_an_edge_that_rounding_left_without_length_is_not_flipped():
+    dots, double = np.array([[1.0, 0, 0], [1.0, 0, 0]]), np.ones(2)
+    before = dots.copy()
+    assert not flips.flip_numbers(dots, double, 0, 3)
+    assert np.array_equal(dots, before)
+
+
+def test_an_edge_that_can_not_be_flipped_in_the_end_is_told():
+    square = Mesh([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]])
+    faces, twins, sides, dots, double = _state(square)
+    dots[:] = [[0, 1, 0], [0, 0, 1]]  # the side that they share has no length, and yet faces
+    dots[0, 1], dots[1, 2] = -1.0, -1.0  # angles of more than π together
+    dots[0, [0, 2]], dots[1, [0, 1]] = 0.0, 0.0
+    assert flips.flip_to_delaunay(faces, twins, sides, dots, double, 5, 100) == -2
+
+
 @pytest.mark.parametrize(("height", "delaunay"), [(1.01, True), (1.0, True), (0.99, False)])
 def test_delaunay_is_the_empty_circle(height, delaunay):
     p, q, a, b = np.array([[-1, 0], [1, 0], [0, 1], [0, -height]])  # on the circle at height 1
@@ -68,9 +85,7 @@ def test_rounding_is_measured_beside_the_terms():
 
 def _state(mesh):
     topology = mesh.topology
-    dots, double = np.empty((mesh.n_faces, 3)), np.empty(mesh.n_faces)
-    x = np.pad(mesh.vertices, ((0, 0), (0, 3 - mesh.dimension)))
-    flips.measure_faces(x, mesh.faces, dots, double)
+    dots, double, _ = face_numbers(mesh)
     tables = topology.faces.copy(), topology.twins.copy(), topology.face_edges.copy()
     return *tables, dots, double
 

@@ -5,6 +5,7 @@ import pytest
 from scipy.sparse import csr_array
 
 import dense_oracles as oracle
+from beltrami.diffusion.heat import heat
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import icosphere
 from beltrami.operators.guarantees import WEIGHT_KINDS
@@ -84,6 +85,18 @@ def test_the_maximum_principle_fails_where_it_is_denied():
         assert _heat(pair, 1e-3 * pair.masses.sum()).min() < -1e-3
         kernels = _heat(laplacian(MESHES[name](), "clamped"), 1e-3 * pair.masses.sum())
         assert kernels.min() > -1e-12
+
+
+def test_with_the_consistent_mass_heat_leaves_the_range_of_its_start():
+    """Whatever the weights: a short step is nearly B⁻¹B, and B⁻¹ has negative entries."""
+    mesh = MESHES["tor"]()
+    spot = np.zeros(mesh.n_vertices)
+    spot[0] = 1
+    for mass, stays in (("voronoi", True), ("consistent", False)):
+        pair = laplacian(mesh, "clamped", mass)
+        assert pair.properties.maximum_principle
+        warm = heat(pair, spot, 1e-3 * pair.masses.min(), steps=1)
+        assert bool(warm.min() >= 0) is stays
 
 
 def _imprecision(W, mesh):

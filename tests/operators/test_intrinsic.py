@@ -1,6 +1,7 @@
 """The intrinsic Delaunay triangulation: the same surface, other edges."""
 
 import pickle
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ from beltrami.errors import (
     UnreferencedVertexError,
 )
 from beltrami.mesh.mesh import Mesh
-from beltrami.mesh.shapes import grid
+from beltrami.mesh.shapes import grid, icosphere
 from beltrami.operators import intrinsic
 from beltrami.operators.intrinsic import intrinsic_delaunay
 from meshes_of_the_errata import MESHES, triangle
@@ -191,3 +192,32 @@ def test_needles_whose_area_flips_lose_are_refused():
             continue
         assert triangles.area_parts.sum() == pytest.approx(mesh.area, rel=1e-6)
     assert found
+
+
+@pytest.mark.parametrize("thin", [1e-7, 1e-9, 1e-10])
+def test_flips_in_the_plane_are_exact_however_thin_the_faces(thin):
+    """Against fractions: lengths, areas and cotangents of the triangles that it ends with."""
+    mesh = MESHES["open"]()
+    mesh = mesh.with_vertices(mesh.vertices * [1, thin])
+    new = intrinsic_delaunay(mesh)
+    assert new.flips > 500
+    for f in range(0, len(new.faces), 7):
+        x = [[Fraction(c) for c in mesh.vertices[v].tolist()] for v in new.faces[f]]
+        sides = [[b - a for a, b in zip(x[k], x[(k + 1) % 3], strict=True)] for k in range(3)]
+        (ux, uy), (vx, vy), (wx, wy) = sides
+        double = ux * vy - uy * vx
+        assert new.double_areas[f] == pytest.approx(float(double), rel=1e-9)
+        cotangents = [-(ux * wx + uy * wy), -(vx * ux + vy * uy), -(wx * vx + wy * vy)]
+        wanted = [float(dot / double) for dot in cotangents]
+        assert 2 * new.half_cotangents[f] == pytest.approx(wanted, rel=1e-8, abs=1e-8)
+
+
+@pytest.mark.parametrize("thin", [1e-9, 3e-10, 3e-11, 1e-11])
+@pytest.mark.parametrize("cover", [False, True])
+def test_a_surface_too_thin_to_go_round_is_refused_in_one_line(thin, cover):
+    """Edges around a spindle are 1e-9 times as long as it: their squares vanish beside its own."""
+    spindle = icosphere(2)
+    spindle = spindle.with_vertices(spindle.vertices * [1, thin, thin])
+    with pytest.raises(ConvergenceError, match="faces are too thin to be flipped") as caught:
+        intrinsic_delaunay(spindle, cover=cover)
+    assert "\n" not in str(caught.value)

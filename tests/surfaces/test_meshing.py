@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import charts
-from beltrami.errors import DegenerateFaceError, MeshError, NotOrientableError, SurfaceError
+from beltrami.errors import MeshError, NotOrientableError, SurfaceError
 from beltrami.mesh.geometry import degenerate_faces
 from beltrami.surfaces.domain import Disk
 from beltrami.surfaces.surface import ParametricSurface
@@ -149,8 +149,18 @@ def test_a_disk_needs_three_vertices_around():
 
 def test_a_map_without_area_has_no_mesh():
     line = ParametricSurface(lambda u, v: (u + v, 2 * u + 2 * v, 0), ((0, 1), (0, 2)))
-    with pytest.raises(DegenerateFaceError):
+    with pytest.raises(SurfaceError, match="18 of the 18 faces between") as caught:
         line.mesh(3, 3)
+    assert caught.value.parameters.shape == (18, 2)
+    assert "Jacobian" in caught.value.remedy
+
+
+def test_a_map_that_folds_on_a_line_names_parameters_there():
+    ledge = ParametricSurface(lambda u, v: (np.maximum(u, 0), v, 0), ((-1, 1), (0, 1)))
+    with pytest.raises(SurfaceError, match="have no area") as caught:
+        ledge.mesh(4, 2)
+    assert (caught.value.parameters[:, 0] < 0.01).all()
+    assert len(caught.value.parameters) == 8  # of 16: those where u < 0
 
 
 @pytest.mark.parametrize("scale", [1e-12, 1e12])

@@ -1,5 +1,7 @@
 """What a surface is given by mistake: refused by name, and never answered with a wrong number."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -163,3 +165,39 @@ def test_what_is_no_function_is_refused():
         ParametricSurface(3, SQUARE)
     with pytest.raises(SurfaceError, match="functions"):
         ParametricSurface(plane, SQUARE, jacobian=3)
+
+
+@pytest.mark.parametrize("thing", [None, 3, "cos", np.zeros(3)])
+def test_curves_and_functions_are_functions(thing):
+    surface = ParametricSurface(plane, SQUARE)
+    for refused in (
+        lambda: surface.trace(thing, [0.5]),
+        lambda: surface.curve_length(thing),
+        lambda: surface.pullback(thing),
+        lambda: surface.laplace_beltrami(thing),
+        lambda: ball_average_laplacian(surface, thing, 0.5, 0.5, 0.1),
+        lambda: ball_average_laplacian(surface, thing, 0.5, 0.5, 0.1, of="parameters"),
+    ):
+        with pytest.raises(SurfaceError, match="where a function is needed"):
+            refused()
+
+
+@pytest.mark.parametrize("thing", [3, "sphere", plane, np.zeros(3)])
+def test_surfaces_are_surfaces(thing):
+    surface = ParametricSurface(plane, SQUARE)
+    for refused in (
+        lambda: exponential_map(thing, 0.5, 0.5, 0.1, 0.1),
+        lambda: ball_average_laplacian(thing, lambda x, *_: x, 0.5, 0.5, 0.1),
+        lambda: surface.is_isometric(thing),
+    ):
+        with pytest.raises(SurfaceError, match="a ParametricSurface is needed"):
+            refused()
+
+
+def test_maps_that_take_no_arrays_are_told_to_use_numpy():
+    for phi in (lambda u, v: (u, v, math.sin(u)), lambda u: (u, u, u), lambda u, v, w: (u, v, w)):
+        with pytest.raises(SurfaceError, match="φ cannot be called with 2 arrays") as caught:
+            ParametricSurface(phi, SQUARE)
+        assert isinstance(caught.value.__cause__, TypeError)
+    with pytest.raises(SurfaceError, match="the curve cannot be called"):
+        ParametricSurface(plane, SQUARE).trace(lambda t: (math.sin(t), t), [0.1, 0.2])

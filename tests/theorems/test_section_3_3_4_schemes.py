@@ -30,6 +30,15 @@ SYMBOLS = {
             "Crank and Nicolson": lambda d, v: (1 - d * v / 2) / (1 + d * v / 2),
         },
     ),
+    "crank_nicolson": (
+        lambda d, v: (1 - d * v / 2) / (1 + d * v / 2),
+        {
+            "sign": lambda d, v: (1 + d * v / 2) / (1 - d * v / 2),
+            "explicit": lambda d, v: 1 - d * v,
+            "implicit": lambda d, v: 1 / (1 + d * v),
+            "two implicit halves": lambda d, v: 1 / (1 + d * v / 2) ** 2,
+        },
+    ),
 }
 
 

@@ -7,15 +7,20 @@ from typing import Annotated
 import typer
 
 from beltrami.cli.curvature import curvature
+from beltrami.cli.denoise import denoise
+from beltrami.cli.descriptors import descriptors
 from beltrami.cli.endings import ending_well
+from beltrami.cli.filter import filter as filter_verb
 from beltrami.cli.geodesics import geodesics
 from beltrami.cli.heat import heat
 from beltrami.cli.info import info
 from beltrami.cli.integrate import integrate
+from beltrami.cli.regularize import regularize
 from beltrami.cli.render import render
 from beltrami.cli.repair import repair
 from beltrami.cli.smooth import smooth
 from beltrami.cli.tour import tour
+from beltrami.cli.wave import wave
 
 app = typer.Typer(
     name="beltrami",
@@ -25,7 +30,22 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for verb in (info, repair, smooth, heat, curvature, geodesics, integrate, render, tour):
+for verb in (
+    info,
+    repair,
+    smooth,
+    denoise,
+    heat,
+    filter_verb,
+    wave,
+    regularize,
+    curvature,
+    geodesics,
+    integrate,
+    descriptors,
+    render,
+    tour,
+):
     app.command()(ending_well(verb))
 
 

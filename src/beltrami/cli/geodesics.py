@@ -11,6 +11,8 @@ from beltrami.cli.functions import write_values
 from beltrami.cli.options import MeshFile, Values
 from beltrami.cli.outputs import check_values_output
 
+_MANY = 20_000  # vertices, whose exact distances take some ten seconds
+
 
 def geodesics(
     mesh: MeshFile,
@@ -47,6 +49,12 @@ def geodesics(
     check_values_output(output)
     with waiting(f"reading {mesh.name}"):
         read = read_mesh(mesh)
+    if method == "exact" and read.n_vertices > _MANY:
+        typer.echo(
+            f"exact distances of {read.n_vertices} vertices may take minutes; "
+            "--method heat takes seconds",
+            err=True,
+        )
     with waiting("measuring distances"):
         distance = geodesic_distance(
             read, source, method=method, time=time, intrinsic=intrinsic, boundary=boundary

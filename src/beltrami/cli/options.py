@@ -52,5 +52,11 @@ Time = Annotated[
     float | None,
     typer.Option(help="Diffusion time, in length² with area masses.", show_default=False),
 ]
+Modes = Annotated[
+    int | None,
+    typer.Option(
+        min=1, help="Of the spectral method: how many.", show_default="all, of small meshes"
+    ),
+]
 HoldBoundary = Annotated[bool, typer.Option("--hold-boundary", help="Keep the boundary in place.")]
 Json = Annotated[bool, typer.Option("--json", help="Write JSON to stdout, for machines.")]

@@ -34,6 +34,26 @@ def check_picture_output(path: Path) -> None:
     check_suffix(path)
 
 
+def check_frames_output(path: Path) -> str:
+    """Raise now what writing frames to ``path`` would raise later; return .npy, .gif, .webp or "".
+
+    The last means a folder of pictures, which may be there already.
+    """
+    from beltrami.display.images import ANIMATED
+    from beltrami.errors import check_name
+
+    suffix = path.suffix.lower()
+    if path.is_dir() or not suffix:
+        place = Path(os.path.realpath(path))
+        if not place.is_dir():
+            _check_place(place)
+        elif not os.access(place, os.W_OK):
+            raise PermissionError(errno.EACCES, "Folder cannot be written", str(path))
+        return ""
+    _check_place(path)
+    return check_name("format for frames (a folder has no suffix)", suffix, (".npy", *ANIMATED))
+
+
 def _check_place(path: Path) -> None:
     """Refuse a directory, and a folder that is not there or cannot be written."""
     place = Path(os.path.realpath(path))

@@ -85,7 +85,7 @@ def smooth(
         read = read_mesh(mesh)
     if data is not None:
         values = read_data(data, read, data_name)
-        held = read.topology.boundary_edges.ravel() if hold_boundary else ()
+        held = read.topology.on_boundary if hold_boundary else ()
         with waiting("smoothing") as progress:
             pair = laplacian(read, "combinatorial" if weights is None else weights, "degree")
             rounds = 10 if steps is None else steps

@@ -1,21 +1,33 @@
-"""The heat equation ∂F/∂t = -B⁻¹ L F, in steps (definition 17, equations 3.6 and 3.7)."""
+"""The heat equation ∂F/∂t = s - B⁻¹ L F (definition 17, equations 3.6, 3.7 and 3.10)."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.sparse import csr_array
 
-from beltrami._arrays import Booleans, Floats, Integers, as_function, as_indices
-from beltrami._progress import Progress, stages
+from beltrami._arrays import Floats, as_function
+from beltrami._progress import Progress
+from beltrami.diffusion.exponential import diffuse_exactly
+from beltrami.diffusion.heat_steps import crank_nicolson_steps, explicit_steps, implicit_steps
+from beltrami.diffusion.held import (
+    FreePart,
+    free_part,
+    held_vertices,
+    like_columns,
+    positions_of,
+)
+from beltrami.diffusion.modes import Modes, find_modes
+from beltrami.diffusion.steady import steady_state
 from beltrami.errors import BeltramiError, StepTooLongError, check_name
-from beltrami.mesh.mesh import Mesh
 from beltrami.operators.pair import Laplacian
-from beltrami.solvers.factorize import factorize
+from beltrami.spectrum.basis import FourierBasis
 
-HEAT_METHODS = ("implicit", "explicit")
+HEAT_METHODS = ("implicit", "explicit", "crank_nicolson", "spectral", "exact")
+_IN_STEPS = HEAT_METHODS[:3]
+_LONG = 1e4
 _MOST_STEPS = 10_000_000  # of the explicit scheme, if the caller does not insist
 
 
@@ -26,12 +38,16 @@ def heat(
     method: str = "implicit",
     steps: int | None = None,
     *,
+    source: ArrayLike | None = None,
     hold: ArrayLike = (),
+    damped_steps: int | None = None,
+    basis: FourierBasis | None = None,
+    tolerance: float | None = None,
     progress: Progress | None = None,
 ) -> Floats:
-    r"""Diffuse a function for a time t: :math:`\partial F / \partial t = -B^{-1} L F`, F_0 = f.
+    r"""Diffuse a function for a time t: :math:`\partial F/\partial t = s - B^{-1} L F`, F_0 = f.
 
-    Chapter items: D17, T15, T16, Q3.6, Q3.7, U30, U31, U32, R3, R4, P40, P47.
+    Chapter items: D17, T15, T16, Q3.6, Q3.7, Q3.10, U30, U31, U32, R3, R4, P40, P47.
 
     Parameters
     ----------
@@ -47,29 +63,52 @@ def heat(
         stable for every step; one factorisation serves all steps and columns.
         ``"explicit"``: :math:`F_{k+1} = F_k - \delta B^{-1} L F_k` (equation 3.6, E51), stable for
         :math:`\delta \le 2 / \lambda_n` (E52).
+        ``"crank_nicolson"``: :math:`(B + \frac\delta2 L) F_{k+1} = (B - \frac\delta2 L) F_k`, of
+        second order and stable, for smooth f; what is rough rings: frequencies with δλ > 2
+        change sign in each step, and those with δλ >> 2 hardly decay. See ``damped_steps``.
+        ``"spectral"``: :math:`\hat F_t = e^{-\lambda t} \hat f` (equation 3.10), with ``basis``.
+        ``"exact"``: :math:`e^{-t B^{-1} L} f` to 1e-12 of the norm of f, by one factorisation and
+        30 solves (see ``diffuse_exactly``); one more factorisation with a source or held values.
     steps
-        Number of steps of length δ = time / steps. Default: 10 implicit ones, or the fewest
-        explicit ones for which no mode is overshot (δ <= 1 / bound).
+        Number of steps of length δ = time / steps. Default: 10, or the fewest explicit ones for
+        which no mode is overshot (δ <= 1 / bound).
+    source
+        (n,) or (n, c) heat s that comes in per unit of time, at all times.
     hold
         Vertices (indices or a mask) whose values stay as they are.
+    damped_steps
+        How many of the first steps of Crank and Nicolson are made as two implicit half steps,
+        which damp what is rough, by the same factor and still at second order (Rannacher 1984).
+        Default 0; 2 suffice for a point of heat.
+    basis
+        Eigenpairs of this pair, from the smallest on, zero at held vertices. Default: all of
+        them, for small meshes.
+    tolerance
+        Of the spectral method: how much of the norm of the result the frequencies beyond the
+        basis may be, at most. Default 1e-3.
     progress
         Called with (steps done, steps in all).
 
     Returns
     -------
-    (n,) or (n, c), as f. Both schemes are of first order in δ, with errors of opposite sign, and
-    keep the mean of B if nothing is held. When the time is more than 1e8 times the area, the
-    implicit system is nearly singular and digits of the mean are lost; in the end it is refused.
+    (n,) or (n, c), as f. Implicit and explicit steps are of first order in δ, with errors of
+    opposite sign. The mean of B is kept to rounding by every method if nothing is held, and moved
+    by t times that of s.
 
     Raises
     ------
     StepTooLongError
         If an explicit step is beyond 2 over ``laplacian.spectral_bound()``, the proven bound;
         ``error.longest`` is the longest allowed.
+    TruncationError
+        If the basis may leave out more than the tolerance.
     SingularMatrixError
-        If the time is so long that nothing of the mass is left beside δL.
+        If the time is so long that nothing of the mass is left beside δL (more than 1e12 or so
+        times the area).
+    NegativeWeightError
+        With the exact and the spectral method, if L is not known to be positive semi-definite.
     DimensionError, NonFiniteError, UnknownNameError, BeltramiError
-        If f, the method or the numbers are not valid.
+        If f, s, the method, its options, the basis or the numbers are not valid.
 
     Examples
     --------
@@ -80,18 +119,94 @@ def heat(
     >>> spread = heat(pair, [1, 0, 0, 0], time=0.1)
     >>> spread.round(3).tolist(), pair.mean(spread).round(12).tolist()
     ([0.704, 0.134, 0.028, 0.134], 0.25)
+    >>> for method in ("explicit", "crank_nicolson", "exact"):
+    ...     print(heat(pair, [1, 0, 0, 0], 0.1, method).round(3))
+    [0.6 0.2 0.  0.2]
+    [0.697 0.138 0.027 0.138]
+    [0.697 0.138 0.027 0.138]
     """
     check_name("method of heat", method, HEAT_METHODS)
+    _refuse(method, _IN_STEPS, steps=steps)
+    _refuse(method, ("crank_nicolson",), damped_steps=damped_steps)
+    _refuse(method, ("spectral",), basis=basis, tolerance=tolerance)
     values = as_function(f, laplacian.n)
-    held = as_indices(hold, laplacian.n, "held vertices")
+    inflow = None if source is None else like_columns(source, values, "the source")
+    held = held_vertices(hold, laplacian.n)
     if not (math.isfinite(time) and time >= 0):
         raise BeltramiError(f"time must be finite and >= 0, not {time}")
-    if steps is not None and (steps < 1 or steps != int(steps)):
-        raise BeltramiError(f"steps must be a whole number >= 1, not {steps}")
-    if time == 0:
+    for name, count, least in (("steps", steps, 1), ("damped_steps", damped_steps, 0)):
+        if count is not None and (count < least or count != int(count)):
+            raise BeltramiError(f"{name} must be a whole number >= {least}, not {count}")
+    if method == "explicit":
+        steps = _explicit_count(laplacian, time, steps)
+    if method in ("spectral", "exact"):
+        laplacian.require_semi_definite(f"the {method} method")
+    if time == 0 or held.all():
         return values.copy()
+    part = free_part(laplacian.stiffness, laplacian.mass, held, positions_of(laplacian))
+    load = -(part.stiffness_border @ values[held]) + np.zeros_like(values[part.free])
+    if inflow is not None:
+        load += (laplacian.mass @ inflow)[part.free]
+    flow = _flow(method, part, time, steps or 10, damped_steps or 0, basis, tolerance, progress)
+    result = values.copy()
+    if method == "explicit" or (method == "implicit" and not _is_long(part, time / (steps or 10))):
+        result[part.free] = flow(values[part.free], load)  # keeps far values positive, if tiny
+    else:
+        result[part.free] = _evolved(part, values[part.free], load, time, flow)
+    return result
+
+
+def _is_long(part: FreePart, step: float) -> bool:
+    """Say whether the mass is so little beside δ times the stiffness that means lose digits."""
+    return bool(step * part.stiffness.trace() > _LONG * part.mass.trace())
+
+
+def _evolved(
+    part: FreePart,
+    u: Floats,
+    load: Floats,
+    time: float,
+    flow: Callable[[Floats, Floats], Floats],
+) -> Floats:
+    """Let the means of the components that float drift by themselves, and the rest flow.
+
+    So no digit of the means is lost, however long the time.
+    """
+    level, drift = part.level(np.asarray(part.mass @ u)), part.level(load)
+    rest = flow(u - level, load - part.mass @ drift)
+    return np.asarray(part.centred(rest) + (level + time * drift))
+
+
+def _flow(
+    method: str,
+    part: FreePart,
+    time: float,
+    steps: int,
+    damped: int,
+    basis: FourierBasis | None,
+    tolerance: float | None,
+    progress: Progress | None,
+) -> Callable[[Floats, Floats], Floats]:
+    """Return the map (u, load) to the state after the time."""
     if method == "implicit":
-        return _implicit(laplacian, values, time, steps or 10, held, progress)
+        return lambda u, load: implicit_steps(part, u, load, time, steps, progress)
+    if method == "explicit":
+        return lambda u, load: explicit_steps(part, u, load, time, steps, progress)
+    if method == "crank_nicolson":
+        return lambda u, load: crank_nicolson_steps(part, u, load, time, steps, damped, progress)
+    modes: Modes | None = find_modes(part, basis) if method == "spectral" else None
+
+    def towards_rest(u: Floats, load: Floats) -> Floats:
+        rest = steady_state(part, load)
+        if modes is None:
+            return rest + diffuse_exactly(part, u - rest, time, progress)
+        return rest + modes.decayed(u - rest, time, 1e-3 if tolerance is None else tolerance)
+
+    return towards_rest
+
+
+def _explicit_count(laplacian: Laplacian, time: float, steps: int | None) -> int:
+    """Return a number of explicit steps that is stable, or raise."""
     bound = laplacian.spectral_bound()
     count = steps or math.ceil(min(max(1.0, time * bound), _MOST_STEPS + 1))
     if steps is None and count > _MOST_STEPS:
@@ -101,57 +216,11 @@ def heat(
         )
     if time / count * bound > 2 * (1 + 1e-12):
         raise StepTooLongError(time / count, 2 / bound)
-    return _explicit(laplacian, values, time / count, count, held, progress)
+    return count
 
 
-def _implicit(
-    laplacian: Laplacian,
-    f: Floats,
-    time: float,
-    steps: int,
-    held: Integers,
-    progress: Progress | None,
-) -> Floats:
-    """Solve (B + δL) F' = B F on the free vertices; the held ones move to the right-hand side."""
-    matrix = csr_array(laplacian.mass + (time / steps) * laplacian.stiffness)
-    free = np.ones(laplacian.n, np.bool_)
-    free[held] = False
-    if not free.any():
-        return f.copy()
-    inner = matrix if free.all() else csr_array(matrix[free][:, free])
-    outer = matrix[free][:, ~free] @ f[~free]
-    factor = factorize(inner, _positions(laplacian, free))
-    result = f.copy()
-    for _ in stages(steps, progress):
-        result[free] = factor.solve((laplacian.mass @ result)[free] - outer)
-    return result
-
-
-def _explicit(
-    laplacian: Laplacian,
-    f: Floats,
-    delta: float,
-    steps: int,
-    held: Integers,
-    progress: Progress | None,
-) -> Floats:
-    """Add -δ B⁻¹ L F on the free vertices, with the part of B that belongs to them."""
-    free = np.ones(laplacian.n, np.bool_)
-    free[held] = False
-    if not free.any():
-        return f.copy()
-    result = f.copy()
-    whole = laplacian.mass_kind == "consistent"
-    inner = csr_array(laplacian.mass[free][:, free])
-    mass = factorize(inner, _positions(laplacian, free)) if whole else None
-    scale = (delta / laplacian.masses[free])[(...,) + (None,) * (f.ndim - 1)]
-    for _ in stages(steps, progress):
-        flow = (laplacian.stiffness @ result)[free]
-        result[free] -= scale * flow if mass is None else delta * mass.solve(flow)
-    return result
-
-
-def _positions(laplacian: Laplacian, chosen: Booleans) -> Floats | None:
-    """Return where the chosen vertices are, if the pair comes from a mesh."""
-    domain = laplacian.domain
-    return domain.vertices[chosen] if isinstance(domain, Mesh) else None
+def _refuse(method: str, owners: tuple[str, ...], **options: object) -> None:
+    """Raise if an option is given that the method has not."""
+    for name, value in options.items():
+        if value is not None and method not in owners:
+            raise BeltramiError(f"the method {method!r} has no {name}")

@@ -9,6 +9,7 @@ from beltrami._arrays import Floats, as_indices
 from beltrami._progress import Progress
 from beltrami.diffusion.smoothing_methods import SMOOTHING_METHODS
 from beltrami.errors import BeltramiError, check_name
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 
 KEPT = ("volume", "centroid")
@@ -104,6 +105,7 @@ def smooth_mesh(
     >>> round(smooth_mesh(sphere, "taubin", steps=50).volume / sphere.volume, 2)
     1.04
     """
+    require_mesh(mesh, "smooth_mesh")
     given = {
         "steps": steps,
         "step": step,
@@ -125,7 +127,7 @@ def smooth_mesh(
     held = np.zeros(mesh.n_vertices, np.bool_)
     held[as_indices(hold, mesh.n_vertices, "held vertices")] = True
     if hold_boundary:
-        held[mesh.topology.boundary_edges.ravel()] = True
+        held |= mesh.topology.on_boundary
     if keep is not None:
         check_name("quantity to keep", keep, KEPT)
         if held.any():

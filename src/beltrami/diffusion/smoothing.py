@@ -11,9 +11,9 @@ from scipy.sparse import csr_array
 from beltrami._arrays import Booleans, Floats, as_function, as_indices
 from beltrami._jit import kernel
 from beltrami._progress import Progress, stages
-from beltrami.diffusion.locality import LocalRows, local_rows
 from beltrami.errors import BeltramiError, StepTooLongError
 from beltrami.operators.pair import Laplacian
+from beltrami.solvers.locality import LocalRows, local_rows
 
 _ROUNDS_A_CALL = 20  # between two looks at the progress, and at ctrl-C
 

@@ -14,7 +14,6 @@ from beltrami.diffusion.curvature_flow import curvature_flow
 from beltrami.diffusion.face_rings import face_rings
 from beltrami.diffusion.features import feature_edges, weights_along
 from beltrami.diffusion.heat import heat
-from beltrami.diffusion.locality import LocalRows, local_rows
 from beltrami.diffusion.normal_filters import filtered_normals
 from beltrami.diffusion.normal_variation import normals_of_small_variation
 from beltrami.diffusion.smoothing import average, averaging_rows, shares_of, smooth
@@ -24,6 +23,7 @@ from beltrami.diffusion.windowed_sinc import filter_rows, sinc_coefficients
 from beltrami.errors import BeltramiError
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.laplacian import laplacian
+from beltrami.solvers.locality import LocalRows, local_rows
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ import numpy as np
 from beltrami._arrays import Floats
 from beltrami._jit import kernel
 from beltrami._progress import Progress, stages
-from beltrami.diffusion.locality import LocalRows
 from beltrami.errors import BeltramiError
+from beltrami.solvers.locality import LocalRows
 
 _ROUNDS_A_CALL = 20  # between two looks at the progress, and at ctrl-C
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from beltrami._arrays import Booleans, Floats, Integers
 from beltrami.display.camera import FIELD_OF_VIEW, Camera
 from beltrami.display.vectors import as_vector, unit_vector
-from beltrami.errors import EmptyMeshError, MeshError, check_name
+from beltrami.errors import EmptyMeshError, MeshError, check_name, shown
 from beltrami.mesh.geometry import in_space
 from beltrami.mesh.mesh import Mesh
 
@@ -90,7 +90,7 @@ def _direction(view: ArrayLike | None, frame: Floats, planar: bool) -> Floats:
     given = np.asarray(view, dtype=np.float64)
     if given.shape not in ((2,), (3,)) or not np.isfinite(given).all():
         raise MeshError(
-            f"the view {view!r} is no direction",
+            f"the view {shown(view)} is no direction",
             remedy="Give (azimuth, elevation) in degrees, or a vector of three numbers.",
         )
     if given.shape == (2,):

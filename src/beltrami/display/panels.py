@@ -13,7 +13,8 @@ from beltrami.display.colormaps import is_signed
 from beltrami.display.framing import fit_camera
 from beltrami.display.scene import Panel, check_mesh
 from beltrami.display.values import as_values, choose_limits, seen_values
-from beltrami.errors import DimensionError, EmptyMeshError, MeshError, check_name
+from beltrami.errors import DimensionError, EmptyMeshError, MeshError, check_name, shown
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 
 Levels: TypeAlias = str | float | Sequence[float] | None
@@ -39,7 +40,8 @@ def paired(
     >>> len(meshes), captions
     (2, ['one', 'two'])
     """
-    meshes = [mesh] if isinstance(mesh, Mesh) else list(mesh)
+    given = list(mesh) if isinstance(mesh, list | tuple) else [mesh]
+    meshes = [require_mesh(each, "a picture") for each in given]
     if not meshes:
         raise EmptyMeshError("there is no mesh to draw")
     for each in meshes:
@@ -125,5 +127,5 @@ def _levels(level_set: Levels, f: Floats) -> tuple[float, ...]:
         return (0.0,) if is_signed(f) else ()
     levels = np.atleast_1d(np.asarray(level_set, dtype=np.float64))
     if levels.ndim != 1 or not np.isfinite(levels).all():
-        raise MeshError(f"the level sets {level_set!r} are not finite numbers")
+        raise MeshError(f"the level sets {shown(level_set)} are not finite numbers")
     return tuple(levels.tolist())

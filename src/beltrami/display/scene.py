@@ -11,7 +11,7 @@ from beltrami._arrays import Floats, require_finite
 from beltrami.display.camera import Camera
 from beltrami.display.light import SHADINGS, Light
 from beltrami.display.srgb import Color, as_color
-from beltrami.errors import DimensionError, EmptyMeshError, MeshError, check_name
+from beltrami.errors import DimensionError, EmptyMeshError, MeshError, check_name, shown
 from beltrami.mesh.mesh import Mesh
 
 CLAY = (0.94, 0.845, 0.76)
@@ -47,7 +47,7 @@ class Style:
         for name in ("ambient", "fill", "line_width"):
             value = getattr(self, name)
             if value is not None and not 0 <= value < np.inf:
-                raise MeshError(f"{name} is {value!r}, where a number >= 0 is needed")
+                raise MeshError(f"{name} is {shown(value)}, where a number >= 0 is needed")
         if self.line_width == 0:
             raise MeshError("lines of the width 0", remedy="Give level_set=None to draw none.")
 
@@ -108,6 +108,6 @@ def _check_counts(what: str, values: Any, length: int, greatest: int) -> None:
     """Refuse anything but ``length`` whole numbers of 1 to ``greatest``."""
     given = np.asarray(values)
     if given.shape != (length,) or given.dtype.kind not in "iu":
-        raise MeshError(f"{what} is {values!r}, where {length} whole number(s) are needed")
+        raise MeshError(f"{what} is {shown(values)}, where {length} whole number(s) are needed")
     if given.min() < 1 or given.max() > greatest:
-        raise MeshError(f"{what} is {values!r}, where 1 to {greatest} is possible")
+        raise MeshError(f"{what} is {shown(values)}, where 1 to {greatest} is possible")

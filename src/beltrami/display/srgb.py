@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from PIL import ImageColor
 
 from beltrami._arrays import Floats
-from beltrami.errors import MeshError
+from beltrami.errors import MeshError, shown
 
 Color: TypeAlias = str | tuple[float, float, float]
 Image: TypeAlias = NDArray[np.uint8]
@@ -77,8 +77,8 @@ def as_color(color: Color, what: str = "the colour") -> Floats:
         try:
             return np.array(ImageColor.getrgb(color)[:3]) / 255.0
         except ValueError as cause:
-            raise MeshError(f"{what} {color!r} is not a colour", remedy=remedy) from cause
+            raise MeshError(f"{what} {shown(color)} is not a colour", remedy=remedy) from cause
     values = np.array(color, dtype=np.float64)
     if values.shape != (3,) or not ((values >= 0) & (values <= 1)).all():
-        raise MeshError(f"{what} {color!r} is not a colour", remedy=remedy)
+        raise MeshError(f"{what} {shown(color)} is not a colour", remedy=remedy)
     return values

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from beltrami._arrays import Floats, as_function
 from beltrami.display.colormaps import color_table, is_signed, symmetric_limits
 from beltrami.display.framing import named_vertices
-from beltrami.errors import DimensionError, MeshError
+from beltrami.errors import DimensionError, MeshError, shown
 from beltrami.mesh.mesh import Mesh
 
 
@@ -70,5 +70,5 @@ def choose_limits(
         limits = symmetric_limits(f) if symmetric else (float(f.min()), float(f.max()))
     low, high = (float(limit) for limit in limits)
     if not (np.isfinite([low, high]).all() and low <= high):
-        raise MeshError(f"the limits {limits!r} are not two numbers in ascending order")
+        raise MeshError(f"the limits {shown(limits)} are not two numbers in ascending order")
     return (low, high), color_table(colormap)

@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from beltrami._arrays import Booleans, Floats, Integers
-from beltrami.errors import NotManifoldError
 from beltrami.geodesics.edge_paths import edge_distance
 from beltrami.geodesics.windows import carry_windows
-from beltrami.mesh.geometry import in_space, well_scaled
 from beltrami.mesh.mesh import Mesh
-from beltrami.operators.flips import measure_faces
+from beltrami.mesh.requirements import require_edge_manifold
+from beltrami.operators.face_parts import face_numbers
 
 _ANGLE = 1e-10  # of an excess that is none
 
@@ -51,15 +50,10 @@ def exact_distance(mesh: Mesh, sources: Integers) -> Floats:
     True
     """
     topology = mesh.topology
-    if not topology.is_edge_manifold:
-        raise NotManifoldError(
-            "exact distances need edges of one or two faces",
-            edges=topology.non_manifold_edges,
-            remedy='See repair(mesh, split_non_manifold=True), or use method="heat".',
-        )
-    scaled, unit = well_scaled(mesh.vertices)
-    dots, double = np.empty((mesh.n_faces, 3)), np.empty(mesh.n_faces)
-    measure_faces(*in_space(scaled, mesh.faces), dots, double)
+    require_edge_manifold(
+        topology, "exact distances need edges of one or two faces", ', or use method="heat"'
+    )
+    dots, double, unit = face_numbers(mesh)
     sides = np.sqrt(np.roll(dots, -1, axis=1) + np.roll(dots, -2, axis=1))
     distance = edge_distance(mesh, sources) / unit
     around = topology.vertex_faces
@@ -82,6 +76,5 @@ def _turning(mesh: Mesh) -> Booleans:
     """Mark the vertices where a shortest path may turn."""
     topology = mesh.topology
     total = np.bincount(mesh.faces.ravel(), mesh.corner_angles.ravel(), mesh.n_vertices)
-    straight = np.full(mesh.n_vertices, 2 * np.pi)
-    straight[topology.boundary_edges.ravel()] = np.pi
+    straight = np.where(topology.on_boundary, np.pi, 2 * np.pi)
     return np.asarray((total > straight + _ANGLE) | (topology.fans.of_vertex > 1))

@@ -13,9 +13,10 @@ from scipy.sparse import csr_array
 from beltrami._arrays import Booleans, Floats, Integers
 from beltrami._frozen import Frozen
 from beltrami._jit import kernel
-from beltrami.errors import BeltramiError, ConvergenceError, check_name
+from beltrami.errors import BeltramiError, ConvergenceError, check_name, shown
 from beltrami.geodesics.sources import checked_sources
 from beltrami.mesh.connectivity import component_labels
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.bounds import side_weights
 from beltrami.operators.intrinsic import IntrinsicTriangulation
@@ -25,6 +26,7 @@ from beltrami.solvers.factorize import factorize
 
 BOUNDARIES = ("neumann", "average")
 _COLD = 1e-290  # less heat than this has lost its digits
+_LOST = 1e15  # times the mass: beside so much stiffness it is rounded away
 
 
 class HeatMethod(Frozen):
@@ -86,9 +88,12 @@ class HeatMethod(Frozen):
         boundary: str = "neumann",
     ) -> None:
         check_name("boundary", boundary, BOUNDARIES)
+        require_mesh(mesh, "the heat method")
         pair = laplacian(mesh, _weights(mesh, intrinsic), "voronoi")
         triangles = pair.domain if isinstance(pair.domain, IntrinsicTriangulation) else mesh
         t = _mean_edge(triangles) ** 2 if time is None else _checked_time(time)
+        if not t * float(pair.stiffness.data.max()) < _LOST * float(pair.masses.max()):
+            raise BeltramiError(f"in a time of {t:.6g} all heat is spread evenly, as numbers go")
         if isinstance(triangles, Mesh):
             halves, areas = side_weights(mesh, np.zeros(0), "cotangent"), mesh.face_areas
         else:
@@ -97,8 +102,8 @@ class HeatMethod(Frozen):
         free = np.ones(pair.n, np.bool_)
         free[np.unique(labels, return_index=True)[1]] = False  # L is singular: fix one value each
         step = csr_array(pair.mass + t * pair.stiffness)
-        inner = np.ones(pair.n, np.bool_)
-        inner[mesh.topology.boundary_edges.ravel()] = boundary == "neumann"
+        cold = boundary == "average"
+        inner = ~mesh.topology.on_boundary if cold else np.ones(pair.n, np.bool_)
         self.__dict__.update(
             mesh=mesh,
             time=t,
@@ -173,7 +178,7 @@ class HeatMethod(Frozen):
 def _checked_time(time: float) -> float:
     if isinstance(time, numbers.Real) and math.isfinite(time) and time > 0:
         return float(time)
-    raise BeltramiError(f"the time of the heat method must be positive, not {time!r}")
+    raise BeltramiError(f"the time of the heat method must be positive, not {shown(time)}")
 
 
 def _weights(mesh: Mesh, intrinsic: bool) -> str:

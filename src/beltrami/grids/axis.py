@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, rectangular
-from beltrami.errors import DimensionError, NonFiniteError
+from beltrami.errors import DimensionError, NonFiniteError, shown
 
 _LARGEST = 2**31  # entries of a sparse matrix with 32-bit indices
 
@@ -70,9 +70,11 @@ def _sizes(shape: int | Sequence[int]) -> tuple[int, ...]:
     try:
         sizes = tuple(operator.index(p) for p in given)
     except TypeError as cause:
-        raise DimensionError(f"the shape of a grid is whole numbers, not {shape!r}") from cause
+        raise DimensionError(f"the shape of a grid is whole numbers, not {shown(shape)}") from cause
     if not sizes or min(sizes) < 1 or any(isinstance(p, bool) for p in given):
-        raise DimensionError(f"a grid has one axis or more, of one point or more: not {shape!r}")
+        raise DimensionError(
+            f"a grid has one axis or more, of one point or more: not {shown(shape)}"
+        )
     return sizes
 
 
@@ -81,7 +83,7 @@ def _flags(periodic: bool | Sequence[bool], d: int) -> tuple[bool, ...]:
     given = given[()] if isinstance(given, np.ndarray) else given  # a scalar, if it has no axes
     flags = tuple(given) if _is_row(given) else (given,) * d
     if not all(isinstance(flag, bool | np.bool_) for flag in flags) or len(flags) != d:
-        raise DimensionError(f"periodic is True or False, or {d} of them: not {periodic!r}")
+        raise DimensionError(f"periodic is True or False, or {d} of them: not {shown(periodic)}")
     return tuple(map(bool, flags))
 
 

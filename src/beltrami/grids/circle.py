@@ -10,7 +10,7 @@ import scipy.fft
 from numpy.typing import ArrayLike, NDArray
 
 from beltrami._arrays import Floats, Integers, read_only, rectangular
-from beltrami.errors import BeltramiError, DimensionError, NonFiniteError
+from beltrami.errors import BeltramiError, DimensionError, NonFiniteError, shown
 from beltrami.grids.values import as_values, is_whole, refuse_overflow
 
 
@@ -189,9 +189,9 @@ def coefficient_bound(frequencies: ArrayLike, order: int, supremum: float) -> Fl
     if not omega.all():
         raise DimensionError("the bound says nothing of frequency 0")
     if not is_whole(order) or order < 0:
-        raise BeltramiError(f"the order is a whole number >= 0, not {order!r}")
+        raise BeltramiError(f"the order is a whole number >= 0, not {shown(order)}")
     if not isinstance(supremum, Real) or not 0 <= supremum < np.inf:
-        raise BeltramiError(f"the supremum is finite and >= 0, not {supremum!r}")
+        raise BeltramiError(f"the supremum is finite and >= 0, not {shown(supremum)}")
     power = np.abs(omega.astype(np.float64)) ** -float(min(order, _LARGEST_ORDER))
     with np.errstate(over="ignore"):
         return np.asarray(refuse_overflow(_ROOT * (supremum * power), "the bound"))

@@ -2,7 +2,8 @@ r"""Convolution on (Z/pZ)^d: direct, by FFT, repeated, and its symbol (3.2.4, th
 
 from __future__ import annotations
 
-from math import log2
+from collections.abc import Sequence
+from math import prod
 
 import numpy as np
 import scipy.fft
@@ -10,10 +11,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from beltrami.errors import BeltramiError, DimensionError, check_name
 from beltrami.grids.transform import dft
+from beltrami.grids.transform_cost import transform_cost
 from beltrami.grids.values import Values, as_values, is_whole, refuse_overflow
 
 _MANY = 2**53  # exponents that a float still tells apart
 METHODS = ("auto", "direct", "fft")
+_PASS = 0.32  # shifts of a value that take as long as one pass of a transform over it
+_CALL = 1000  # values that could be moved in the time of the calls for one shift
 
 
 def convolve(f: ArrayLike, kernel: ArrayLike, method: str = "auto") -> Values:
@@ -58,26 +62,29 @@ def convolve(f: ArrayLike, kernel: ArrayLike, method: str = "auto") -> Values:
     check_name("method of convolution", method, METHODS)
     values, w = _two(f, kernel)
     if method == "auto":
-        method = cheaper_method(values.size, int(np.count_nonzero(w)))
+        method = cheaper_method(values.shape, int(np.count_nonzero(w)))
     result = _direct(values, w) if method == "direct" else _by_fft(values, w, 1)
     return refuse_overflow(result, "the convolution")
 
 
-def cheaper_method(n: int, nonzeros: int) -> str:
-    """Tell whether q shifts of n values, or three FFTs, cost less: ``"direct"`` or ``"fft"``.
+def cheaper_method(shape: Sequence[int], nonzeros: int) -> str:
+    """Tell whether q shifts, or three FFTs, cost less: ``"direct"`` or ``"fft"``.
 
-    A rule of thumb: shifts if there are at most log2(n)/2 of them. Where p has large prime factors
-    transforms cost up to three times more. So the kernels of local operators (2d + 1 values) are
-    convolved directly on all but small grids, as the chapter says (l. 268).
+    Shifts move q n values, transforms about n log2(n), or more where a length has large prime
+    factors; constants as measured (benchmarks, row ``convolution``). So the kernels of local
+    operators (2d + 1 values) are convolved directly on all but small grids, as the chapter says
+    (l. 268).
 
     Chapter items: P28.
 
     Examples
     --------
-    >>> cheaper_method(1024 * 1024, 5), cheaper_method(1024 * 1024, 49)
+    >>> cheaper_method((1024, 1024), 5), cheaper_method((1024, 1024), 49)
     ('direct', 'fft')
     """
-    return "direct" if 2 * nonzeros <= log2(n) else "fft"
+    n = prod(shape)
+    moved = (nonzeros + 1) * (n + _CALL)
+    return "direct" if moved <= _PASS * transform_cost(shape) * n else "fft"
 
 
 def convolve_repeatedly(f: ArrayLike, kernel: ArrayLike, times: int) -> Values:
@@ -153,12 +160,21 @@ def _two(f: ArrayLike, kernel: ArrayLike) -> tuple[Values, Values]:
 
 
 def _direct(f: Values, w: Values) -> Values:
-    """Add up the shifts of f."""
+    """Add up the shifts of f: windows of one array that goes on beyond both ends of f."""
     out = np.zeros(f.shape, np.result_type(f, w))
-    axes = tuple(range(f.ndim))
+    scaled = np.empty_like(out)
+    at = np.argwhere(w)
+    sizes = np.array(f.shape)
+    shifts = np.where(2 * at > sizes, at - sizes, at)  # the shorter way round
+    before, after = shifts.max(axis=0, initial=0), -shifts.min(axis=0, initial=0)
+    longer = f
+    for axis, (b, a) in enumerate(zip(before, after, strict=True)):
+        ends = np.split(longer, [a, f.shape[axis] - b], axis)
+        longer = np.concatenate([ends[2], longer, ends[0]], axis)
     with np.errstate(over="ignore", invalid="ignore"):  # told by refuse_overflow
-        for k in np.argwhere(w):
-            out += w[tuple(k)] * np.roll(f, k, axes)
+        for k, start in zip(at, before - shifts, strict=True):
+            window = tuple(slice(b, b + p) for b, p in zip(start, sizes, strict=True))
+            out += np.multiply(longer[window], w[tuple(k)], out=scaled)
     return out
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beltrami._arrays import Floats, Integers, read_only
-from beltrami.errors import BeltramiError
+from beltrami.errors import BeltramiError, shown
 from beltrami.grids.axis import Axes, Axis
 from beltrami.grids.eigenvalues import grid_eigenvalues, is_path_by_degree, uniform_mass
 from beltrami.grids.lattice import Kinds, axis_weights
@@ -43,7 +43,7 @@ def grid_modes(axes: Axes, names: Kinds, k: int | None, real: bool) -> GridModes
     n = eigenvalues.size
     count = n if k is None else k
     if not is_whole(count) or not 1 <= count <= n:
-        raise BeltramiError(f"a grid of {n} points has 1 to {n} modes, not {k!r}")
+        raise BeltramiError(f"a grid of {n} points has 1 to {n} modes, not {shown(k)}")
     order = np.argsort(eigenvalues, axis=None, kind="stable")[:count]
     frequencies = np.stack(np.unravel_index(order, eigenvalues.shape), axis=1).astype(np.int64)
     path = names.mass == "degree" and is_path_by_degree(axes)

@@ -23,6 +23,7 @@ from beltrami.io.ply import read_ply
 from beltrami.io.ply_write import write_ply
 from beltrami.io.source import Source, load
 from beltrami.io.stl import read_stl, write_stl
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 
 READERS: dict[str, Callable[[Source], Mesh]] = {
@@ -166,7 +167,7 @@ def _write(file: Any, mesh: Mesh, vertices: Floats, suffix: str, uv: ArrayLike |
 
 def _writable(mesh: Mesh, suffix: str) -> Floats:
     """Return the vertices as (n, 3), checked."""
-    n, d = mesh.vertices.shape
+    n, d = require_mesh(mesh, "a file").vertices.shape
     if d > 3:
         raise DimensionError(
             f"the vertices have {d} coordinates, and a file holds 3",

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from beltrami._arrays import Booleans, Integers, read_only
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.duplicates import duplicate_faces, duplicate_vertices
 from beltrami.mesh.geometry import degenerate_faces
 from beltrami.mesh.mesh import Mesh
@@ -194,7 +195,7 @@ def diagnose(mesh: Mesh) -> Diagnosis:
     1 kind of defects:
     - 1 unreferenced vertices (in no face): vertices 3. repair: remove_unreferenced drops them.
     """
-    topology = mesh.topology
+    topology = require_mesh(mesh, "a diagnosis").topology
     finite: Booleans = np.asarray(np.isfinite(mesh.vertices).all(axis=1))
     whole = finite[mesh.faces].all(axis=1)
     areas = mesh.face_areas[whole]

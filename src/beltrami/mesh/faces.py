@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Integers, frozen, rectangular
+from beltrami._arrays import Integers, frozen, rectangular, whole
 from beltrami._jit import unsigned
 from beltrami.errors import DimensionError, MeshError
 
@@ -30,9 +30,9 @@ def checked_faces(faces: ArrayLike, n_vertices: int | None) -> tuple[Integers, i
             remedy="Triangulate polygons; read_mesh does it for files.",
         )
     array = frozen(given, np.int64)
-    n = int(array.max(initial=-1)) + 1 if n_vertices is None else int(n_vertices)
-    if n < 0:
-        raise MeshError(f"the number of vertices cannot be {n}")
+    n = int(array.max(initial=-1)) + 1
+    if n_vertices is not None:
+        n = whole("the number of vertices", n_vertices, least=0)
     if len(array) and unsigned(array).max() >= n:  # a negative index is a huge unsigned one
         raise MeshError(
             f"faces name vertices outside 0..{n - 1}",

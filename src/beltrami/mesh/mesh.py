@@ -16,11 +16,11 @@ from beltrami.errors import (
     DimensionError,
     MeshError,
     NotClosedError,
-    NotManifoldError,
-    NotOrientableError,
+    shown,
 )
 from beltrami.mesh import geometry
 from beltrami.mesh.export import export
+from beltrami.mesh.requirements import require_edge_manifold, require_oriented
 from beltrami.mesh.topology import Topology
 
 
@@ -92,7 +92,7 @@ class Mesh(Frozen):
         self.__dict__.update(
             vertices=positions,
             topology=topology,
-            vertex_data=_checked_data(vertex_data or {}, len(positions)),
+            vertex_data=_checked_data({} if vertex_data is None else vertex_data, len(positions)),
             corner_uv=uv,
         )
 
@@ -266,24 +266,20 @@ class Mesh(Frozen):
                 "the surface has a boundary, so it encloses no volume",
                 edges=topology.boundary_edges,
             )
-        if not topology.is_edge_manifold:
-            raise NotManifoldError(
-                "edges with more than two faces leave inside and outside undefined",
-                edges=topology.non_manifold_edges,
-                remedy="See repair(mesh, split_non_manifold=True).",
-            )
-        if not topology.is_oriented:
-            raise NotOrientableError(
-                "neighbouring faces disagree on which side is outside",
-                edges=topology.inconsistent_edges,
-                remedy="See repair(mesh, orient=True)."
-                if topology.is_orientable
-                else "The surface has one side and encloses nothing.",
-            )
+        require_edge_manifold(
+            topology, "edges with more than two faces leave inside and outside undefined"
+        )
+        require_oriented(
+            topology,
+            "neighbouring faces disagree on which side is outside",
+            one_sided="The surface has one side and encloses nothing.",
+        )
 
 
 def _checked_data(data: Mapping[str, ArrayLike], n: int) -> Mapping[str, NDArray[Any]]:
     """Freeze the functions on the vertices; each has n rows and one or two axes."""
+    if not isinstance(data, Mapping):
+        raise MeshError(f"vertex_data maps names to arrays, and is not {shown(data)}")
     arrays = {name: frozen(values, np.asarray(values).dtype) for name, values in data.items()}
     for name, values in arrays.items():
         if values.ndim not in (1, 2) or len(values) != n:

@@ -9,6 +9,7 @@ import numpy as np
 
 from beltrami._arrays import Booleans, Integers, read_only
 from beltrami.errors import MeshError
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.duplicates import duplicate_faces, merge_targets
 from beltrami.mesh.geometry import degenerate_faces, face_vectors
 from beltrami.mesh.mesh import Mesh
@@ -98,6 +99,7 @@ def repair(
     >>> fixed.mesh.faces.tolist(), fixed.vertex_map.tolist(), fixed.done
     ([[0, 1, 2]], [0, -1, 1, 2], ('removed 1 unreferenced vertex',))
     """
+    require_mesh(mesh, "repair")
     if not 0 <= tolerance <= 0.1 or (tolerance > 0 and not merge_duplicate_vertices):
         raise MeshError(
             f"tolerance is a fraction of the diagonal, at most 0.1 and not {tolerance}, "

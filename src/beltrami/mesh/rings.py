@@ -57,6 +57,8 @@ def vertex_ring(adjacency: csr_array, i: int, s: int, kind: str) -> Integers:
     seen = {i}
     front = {i}
     for _ in range(s):
+        if not front:
+            break  # everything has been reached
         step = {int(j) for v in front for j in indices[indptr[v] : indptr[v + 1]]}
         front = step if kind == "walk" else step - seen
         seen |= front

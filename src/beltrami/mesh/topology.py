@@ -9,19 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
-from beltrami._arrays import (
-    Booleans,
-    Integers,
-    read_only,
-    read_only_matrix,
-)
+from beltrami._arrays import Booleans, Integers, read_only, read_only_matrix, whole
 from beltrami._frozen import Frozen
-from beltrami.errors import (
-    MeshError,
-    NotManifoldError,
-    NotOrientableError,
-    check_name,
-)
+from beltrami.errors import MeshError, NotOrientableError, check_name
 from beltrami.mesh.connectivity import (
     component_labels,
     faces_joined_by_edges,
@@ -31,6 +21,7 @@ from beltrami.mesh.faces import checked_faces
 from beltrami.mesh.fans import Fans, group_corners
 from beltrami.mesh.half_edges import HalfEdges, pair_sides
 from beltrami.mesh.loops import order_boundary
+from beltrami.mesh.requirements import require_manifold
 from beltrami.mesh.rings import adjacency_matrix, incident_faces, vertex_ring
 
 
@@ -122,6 +113,13 @@ class Topology(Frozen):
         return read_only(self.edges[self.half_edges.edge_face_count == 1])
 
     @cached_property
+    def on_boundary(self) -> Booleans:
+        """(n,) bool: whether the vertex is an end of an edge with one face."""
+        ends = np.zeros(self.n_vertices, np.bool_)
+        ends[self.boundary_edges.ravel()] = True
+        return read_only(ends)
+
+    @cached_property
     def non_manifold_edges(self) -> Integers:
         """(q, 2) int: the edges with more than two faces."""
         return read_only(self.edges[self.half_edges.edge_face_count > 2])
@@ -143,9 +141,8 @@ class Topology(Frozen):
 
         The three readings of equation (3.2); see erratum E6.
         """
-        if s < 0:
-            raise MeshError(f"the radius of a ring cannot be {s}")
-        return vertex_ring(self.adjacency, self._checked(i), s, kind)
+        radius = whole("the radius of a ring", s, least=0)
+        return vertex_ring(self.adjacency, self._checked(i), radius, kind)
 
     def face_ring(self, i: int) -> Integers:
         """Faces around vertex i, ascending (definition 4 as it is meant, E7)."""
@@ -154,9 +151,10 @@ class Topology(Frozen):
         return np.asarray(around.indices[around.indptr[v] : around.indptr[v + 1]], dtype=np.int64)
 
     def _checked(self, i: int) -> int:
-        if not 0 <= i < self.n_vertices:
-            raise MeshError(f"there is no vertex {i}: they are 0..{self.n_vertices - 1}")
-        return int(i)
+        vertex = whole("a vertex", i, least=-(2**53))
+        if not 0 <= vertex < self.n_vertices:
+            raise MeshError(f"there is no vertex {vertex}: they are 0..{self.n_vertices - 1}")
+        return vertex
 
     @cached_property
     def referenced(self) -> Booleans:
@@ -271,13 +269,7 @@ class Topology(Frozen):
 
         Raises NotManifoldError or NotOrientableError where it has no meaning.
         """
-        if not self.is_manifold:
-            raise NotManifoldError(
-                "the genus of a mesh that is not a manifold is not defined",
-                vertices=self.non_manifold_vertices,
-                edges=self.non_manifold_edges,
-                remedy="See repair(mesh, split_non_manifold=True).",
-            )
+        require_manifold(self, "the genus of a mesh that is not a manifold is not defined")
         if not self.is_orientable:
             raise NotOrientableError("the surface is not orientable, so it has no genus")
         loops = len(self.boundary_loops)

@@ -8,6 +8,7 @@ import numpy as np
 
 from beltrami._arrays import Floats
 from beltrami._jit import kernel, unsigned
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.geometry import in_space, well_scaled
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.triangle import is_flat, measure, shares
@@ -35,7 +36,7 @@ def accumulate(mesh: Mesh, cotangents: bool, areas: int) -> tuple[Floats, Floats
     EmptyMeshError, NonFiniteError, DegenerateFaceError
         If the mesh is not sound.
     """
-    topology = mesh.topology
+    topology = require_mesh(mesh).topology
     require_faces(topology)
     require_positions(mesh)
     scaled, unit = well_scaled(mesh.vertices)

@@ -8,12 +8,10 @@ import numpy as np
 
 from beltrami._arrays import Floats, Integers
 from beltrami._jit import kernel
-from beltrami.errors import DimensionError
-from beltrami.mesh.geometry import in_space, well_scaled
+from beltrami.mesh.door import require_mesh, topology_of
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
-from beltrami.mesh.triangle import measure, shares
-from beltrami.operators.areas import AREA_KINDS
+from beltrami.operators.face_parts import face_numbers, split_masses
 from beltrami.operators.soundness import require_sound
 
 
@@ -46,32 +44,21 @@ def largest_face_eigenvalue(side_weights: Floats, corner_masses: Floats) -> floa
 def side_weights(domain: Mesh | Topology, edge_weight: Floats, kind: str) -> Floats:
     """Split the weights of the edges among their faces: cotangents as they come, others evenly."""
     if kind == "cotangent" and isinstance(domain, Mesh):
-        scaled, _ = well_scaled(domain.vertices)
-        return np.asarray(_half_cotangents(*in_space(scaled, domain.faces)))
-    topology = domain.topology if isinstance(domain, Mesh) else domain
+        return face_numbers(domain).half_cotangents
+    topology = topology_of(domain)
     per_face = edge_weight / topology.half_edges.edge_face_count
     return np.asarray(per_face[topology.face_edges])
 
 
 def corner_masses(domain: Mesh | Topology, sides: Floats, kind: str) -> Floats:
     """Split the masses of the vertices among their faces: as they come, unit masses evenly."""
-    topology = domain.topology if isinstance(domain, Mesh) else domain
-    if kind == "degree":
-        return np.stack(
-            [sides[:, 1] + sides[:, 2], sides[:, 2] + sides[:, 0], sides[:, 0] + sides[:, 1]],
-            axis=1,
-        )
-    if kind == "unit":
-        around = np.bincount(topology.faces.ravel(), minlength=topology.n_vertices)
-        return np.asarray(1 / around[topology.faces])
-    if not isinstance(domain, Mesh):
-        raise DimensionError(f"the {kind} mass needs the positions of the vertices")
-    require_sound(domain)
-    if kind == "consistent":  # (A/12)⁻¹ L_f has the eigenvalues of the pair, because L_f 1 = 0
-        return np.repeat(domain.face_areas[:, None] / 12, 3, axis=1)
-    scaled, unit = well_scaled(domain.vertices)
-    positions, corners = in_space(scaled, domain.faces)
-    return np.asarray(_corner_areas(positions, corners, AREA_KINDS[kind])) * unit**2
+    topology = topology_of(domain)
+    numbers = None
+    if kind not in ("degree", "unit"):
+        mesh = require_mesh(domain, f"the {kind} mass")
+        require_sound(mesh)
+        numbers = face_numbers(mesh)
+    return split_masses(kind, sides, topology.faces, topology.n_vertices, numbers)
 
 
 def largest_edge_eigenvalue(
@@ -132,24 +119,3 @@ def _light(u: float, v: float, w: float, a: float, b: float, c: float) -> float:
             return u / b + u / c
         u, v, w, a, b, c = v, w, u, b, c, a
     return np.inf
-
-
-@kernel
-def _half_cotangents(x: Any, corners: Any) -> Any:
-    """Half the cotangent at each corner."""
-    out = np.empty(corners.shape)
-    for f in range(corners.shape[0]):
-        at_i, at_j, at_k, double = measure(x, corners[f, 0], corners[f, 1], corners[f, 2])
-        half = 0.5 / double
-        out[f, 0], out[f, 1], out[f, 2] = at_i * half, at_j * half, at_k * half
-    return out
-
-
-@kernel
-def _corner_areas(x: Any, corners: Any, kind: int) -> Any:
-    """Split the area of each face among its corners."""
-    out = np.empty(corners.shape)
-    for f in range(corners.shape[0]):
-        at_i, at_j, at_k, double = measure(x, corners[f, 0], corners[f, 1], corners[f, 2])
-        out[f, 0], out[f, 1], out[f, 2] = shares(at_i, at_j, at_k, double, kind)
-    return out

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from beltrami._arrays import Booleans, Floats, read_only
-from beltrami.errors import NotManifoldError, NotOrientableError
+from beltrami._arrays import Floats, read_only
 from beltrami.mesh.mesh import Mesh
-from beltrami.mesh.topology import Topology
+from beltrami.mesh.requirements import require_manifold, require_oriented
 from beltrami.operators.areas import vertex_areas
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.soundness import require_sound
@@ -82,11 +81,19 @@ def curvature(mesh: Mesh) -> Curvature:
     4.0
     """
     require_sound(mesh)
-    _require_oriented_manifold(mesh.topology)
+    require_manifold(
+        mesh.topology, "curvature needs the faces around each vertex in one disk or half disk"
+    )
+    require_oriented(
+        mesh.topology,
+        "neighbouring faces disagree on which side is outside, so H has no sign",
+        one_sided="The surface has one side, so no repair gives it a normal; of what curvature "
+        "measures, areas and angles alone are left: vertex_areas, mesh.corner_angles.",
+    )
     normals = mesh.vertex_normals
     pair = laplacian(mesh)
     bending = (pair.stiffness @ mesh.vertices * normals[:, : mesh.dimension]).sum(axis=1) / 2
-    boundary = _on_boundary(mesh.topology)
+    boundary = mesh.topology.on_boundary
     angles = np.bincount(mesh.faces.ravel(), mesh.corner_angles.ravel(), mesh.n_vertices)
     defect = np.where(boundary, 0.0, 2 * np.pi - angles)
     areas = vertex_areas(mesh)
@@ -100,29 +107,3 @@ def curvature(mesh: Mesh) -> Curvature:
         turning=read_only(np.where(boundary, np.pi - angles, 0.0)),
         areas=read_only(areas),
     )
-
-
-def _on_boundary(topology: Topology) -> Booleans:
-    """Mark the ends of the edges with one face."""
-    boundary = np.zeros(topology.n_vertices, np.bool_)
-    boundary[topology.boundary_edges.ravel()] = True
-    return boundary
-
-
-def _require_oriented_manifold(topology: Topology) -> None:
-    if not topology.is_manifold:
-        raise NotManifoldError(
-            "curvature needs the faces around each vertex in one disk or half disk",
-            vertices=topology.non_manifold_vertices,
-            edges=topology.non_manifold_edges,
-            remedy="See repair(mesh, split_non_manifold=True).",
-        )
-    if not topology.is_oriented:
-        raise NotOrientableError(
-            "neighbouring faces disagree on which side is outside, so H has no sign",
-            edges=topology.inconsistent_edges,
-            remedy="See repair(mesh, orient=True)."
-            if topology.is_orientable
-            else "The surface has one side, so no repair gives it a normal; of what curvature "
-            "measures, areas and angles alone are left: vertex_areas, mesh.corner_angles.",
-        )

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_function
 from beltrami.errors import MeshError
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.soundness import require_faces, require_positions
 
@@ -39,7 +40,7 @@ def edge_derivative(mesh: Mesh, f: ArrayLike) -> Floats:
     >>> edge_derivative(mesh, [1.0, 5.0, 2.0]).round(3).tolist()
     [2.0, 1.0, -1.342]
     """
-    values = as_function(f, mesh.n_vertices)
+    values = as_function(f, require_mesh(mesh).n_vertices)
     require_faces(mesh.topology)
     require_positions(mesh)
     lengths = mesh.edge_lengths

@@ -1,9 +1,10 @@
-"""Domain: what else than a mesh, a topology or a matrix of weights can make its own pair."""
+"""Domain: what makes its own pair; and the door of all that takes a pair."""
 
 from __future__ import annotations
 
 from typing import Protocol, runtime_checkable
 
+from beltrami.errors import DimensionError
 from beltrami.operators.pair import Laplacian
 
 
@@ -17,3 +18,19 @@ class Domain(Protocol):
     def make_laplacian(self, weights: str | None, mass: str | None) -> Laplacian:
         """Return the pair for these names; None is the default of the domain."""
         ...
+
+
+def require_laplacian(pair: object, what: str) -> Laplacian:
+    """Return the pair if it is a Laplacian.
+
+    Raises
+    ------
+    DimensionError
+        If it is anything else, a mesh too; the line says for ``what`` it is needed.
+    """
+    if not isinstance(pair, Laplacian):
+        raise DimensionError(
+            f"a Laplacian is needed for {what}, not an object of type {type(pair).__name__}",
+            remedy="Make one with laplacian(mesh).",
+        )
+    return pair

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_function
 from beltrami.errors import check_name
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.differences import edge_derivative
 from beltrami.operators.edge_areas import edge_areas
@@ -48,7 +49,7 @@ def dirichlet_energy(mesh: Mesh, f: ArrayLike, how: str = "cotangent") -> float:
     [2.0, 2.0, 2.0]
     """
     check_name("route to the energy", how, ROUTES)
-    values = as_function(f, mesh.n_vertices)
+    values = as_function(f, require_mesh(mesh).n_vertices)
     if how == "faces":
         slopes = face_gradient(mesh) @ values
         return _weighted(np.tile(mesh.face_areas, mesh.dimension), slopes)

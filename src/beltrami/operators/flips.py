@@ -12,18 +12,8 @@ from typing import Any
 import numpy as np
 
 from beltrami._jit import kernel
-from beltrami.mesh.triangle import measure
 
 ROUNDING = 1e-13  # of a sum of cotangents, beside 1 and its terms: less does not count as negative
-
-
-@kernel
-def measure_faces(x: Any, corners: Any, dots: Any, double: Any) -> None:
-    """Fill the four numbers of each face: the dot products at its corners, twice its area."""
-    for f in range(corners.shape[0]):
-        dots[f, 0], dots[f, 1], dots[f, 2], double[f] = measure(
-            x, corners[f, 0], corners[f, 1], corners[f, 2]
-        )
 
 
 @kernel
@@ -53,13 +43,14 @@ def flip_to_delaunay(
 
     Returns
     -------
-    Number of flips; -1 if more than ``most`` were asked for.
+    Number of flips; -1 if more than ``most`` were asked for, and -2 if in the end rounding keeps
+    an edge from being flipped.
     """
     twin = twins.reshape(-1)
     half_edge = np.full(p, -1, np.int64)  # one side of each edge that may be flipped
     waiting = np.zeros(p, np.bool_)
     stack = np.empty(p, np.int64)
-    size = flips = 0
+    size = flips = refused = 0
     for h in range(twin.size):
         if twin[h] > h:
             e = sides[h // 3, h % 3]
@@ -77,6 +68,7 @@ def flip_to_delaunay(
         if is_delaunay(dots, double, h, t):  # as is a side glued to another one of its face
             continue
         if not flip_numbers(dots, double, h, t):
+            refused += 1
             continue
         if flips == most:
             return -1
@@ -89,6 +81,9 @@ def flip_to_delaunay(
                 stack[size] = around
                 waiting[around] = True
                 size += 1
+    for h in range(twin.size if refused else 0):  # what was refused may have been flipped later
+        if twin[h] > h and not is_delaunay(dots, double, h, np.int64(twin[h])):
+            return -2
     return flips
 
 
@@ -97,7 +92,8 @@ def flip_numbers(dots: Any, double: Any, h: Any, t: Any) -> bool:
     """Give the two faces of an edge PQ the numbers that they have after its flip to AB.
 
     Before, they are (A, P, Q) and (B, Q, P); after, (A, P, B) and (B, Q, A), each beginning at
-    the corner that faced the edge. Nothing is changed, and False returned, if one were flat.
+    the corner that faced the edge. Nothing is changed, and False returned, if one were flat: an
+    edge that is not Delaunay can be flipped, so this is rounding.
     """
     f, c = h // 3, h % 3
     g, d = t // 3, t % 3
@@ -105,6 +101,8 @@ def flip_numbers(dots: Any, double: Any, h: Any, t: Any) -> bool:
     g_q, g_p = dots[g, (d + 1) % 3], dots[g, (d + 2) % 3]
     u, v = double[f], double[g]
     squared = f_p + f_q  # |PQ|²
+    if not squared > 0:
+        return False
     at_p = (f_p * v + g_p * u) / squared
     at_q = (f_q * v + g_q * u) / squared
     if not (at_p > 0 and at_q > 0):

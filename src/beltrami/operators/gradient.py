@@ -95,5 +95,6 @@ def face_divergence(mesh: Mesh) -> csr_array:
     EmptyMeshError, NonFiniteError, DegenerateFaceError
         If the mesh is not sound.
     """
+    gradient = face_gradient(mesh)
     areas = diagonal_matrix(np.tile(mesh.face_areas, mesh.dimension))
-    return csr_array(-(face_gradient(mesh).T @ areas))
+    return csr_array(-(gradient.T @ areas))

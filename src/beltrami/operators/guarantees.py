@@ -73,8 +73,9 @@ class LaplacianProperties:
         (q, 2) int: the edges with a negative weight.
     maximum_principle
         Whether each value of a solution of Lf = 0 is a mean, with weights >= 0, of its neighbours,
-        so that heat, averaging and interpolation stay between the least and largest value given.
-        The same as ``non_negative_weights``.
+        so that averaging, interpolation and, with a diagonal mass, heat (exact or by implicit
+        steps) stay between the least and largest value given. The consistent mass lets heat leave
+        them. The same as ``non_negative_weights``.
     linear_precision
         Whether L x = 0 at inner vertices of any planar mesh: cotangents, intrinsic ones too.
     spectral_bound

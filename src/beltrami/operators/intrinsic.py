@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from beltrami._arrays import Floats, Integers, read_only
 from beltrami.errors import ConvergenceError, NotOrientableError
-from beltrami.mesh.geometry import in_space, well_scaled
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
 from beltrami.operators.cover import BACK, tufted_cover
-from beltrami.operators.flips import flip_to_delaunay, measure_faces
+from beltrami.operators.face_parts import FaceNumbers, face_numbers
+from beltrami.operators.flips import flip_to_delaunay
 from beltrami.operators.soundness import refuse_unreferenced, require_sound
 
 _KEPT = 1e-6  # of the area: what rounding may change
@@ -60,6 +60,11 @@ class IntrinsicTriangulation:
         )
 
     @property
+    def numbers(self) -> FaceNumbers:
+        """The four numbers of each face."""
+        return FaceNumbers(self.dots, self.double_areas, self.unit)
+
+    @property
     def lengths(self) -> Floats:
         """(m, 3) lengths of the sides, each opposite its corner."""
         squared = np.roll(self.dots, -1, axis=1) + np.roll(self.dots, -2, axis=1)
@@ -68,7 +73,7 @@ class IntrinsicTriangulation:
     @property
     def face_areas(self) -> Floats:
         """(m,) areas of the faces, in length²."""
-        return np.asarray(self.double_areas / 2 * self.unit**2)
+        return self.numbers.areas
 
     @property
     def area_parts(self) -> Floats:
@@ -130,9 +135,7 @@ def intrinsic_delaunay(mesh: Mesh, *, cover: bool = False) -> IntrinsicTriangula
     if not mesh.topology.referenced.all():
         refuse_unreferenced(mesh.topology)
     topology = mesh.topology if cover else _oriented(mesh.topology)
-    positions, unit = well_scaled(mesh.vertices)
-    dots, double = np.empty((mesh.n_faces, 3)), np.empty(mesh.n_faces)
-    measure_faces(*in_space(positions, topology.faces), dots, double)
+    dots, double, unit = face_numbers(Mesh(mesh.vertices, topology))
     faces, twins, sides = topology.faces.copy(), topology.twins.copy(), topology.face_edges.copy()
     p = topology.n_edges
     if cover:
@@ -141,25 +144,26 @@ def intrinsic_delaunay(mesh: Mesh, *, cover: bool = False) -> IntrinsicTriangula
         p = 3 * mesh.n_faces
     before = float(double.sum())
     flips = int(flip_to_delaunay(faces, twins, sides, dots, double, p, _MOST * p))
-    if flips < 0:
+    if flips == -1:
         raise ConvergenceError(
             f"{_MOST * p} flips of {p} edges have not made the triangulation Delaunay"
         )
-    _require_area(double, before)
+    _require_area(double, before, flips == -2)
     tables = (read_only(faces), read_only(twins), read_only(sides))
     numbers = (read_only(dots), read_only(double))
     sheets = 2 if cover else 1
     return IntrinsicTriangulation(*tables, flips, mesh.n_vertices, *numbers, unit, sheets)
 
 
-def _require_area(double: Floats, before: float) -> None:
-    """Raise ConvergenceError if flips of needles have lost the area, which flips keep."""
+def _require_area(double: Floats, before: float, stuck: bool) -> None:
+    """Raise ConvergenceError if flips of needles stuck, or lost the area, which flips keep."""
     after = float(double.sum())
-    if not (double.min() > 0 and abs(after - before) <= _KEPT * before):
+    if stuck or not (double.min() > 0 and abs(after - before) <= _KEPT * before):
+        lost = f"twice the area went from {before:.6g} to {after:.6g}"
+        lost = "an edge stays as it is" if stuck else lost
         raise ConvergenceError(
-            f"faces are too thin to be flipped in floating point: twice the area went from "
-            f"{before:.6g} to {after:.6g}. Make the thinnest faces less thin, or use cotangents of "
-            "the faces as they are"
+            f"faces are too thin to be flipped in floating point: {lost}. Make the thinnest faces "
+            "less thin, or use cotangents of the faces as they are"
         )
 
 

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from beltrami._arrays import Floats
-from beltrami._jit import kernel
-from beltrami.mesh.triangle import shares
-from beltrami.operators.areas import AREA_KINDS
+from beltrami.operators.face_parts import split_masses
 from beltrami.operators.intrinsic import IntrinsicTriangulation
 
 
@@ -32,24 +28,7 @@ def face_pairs(triangles: IntrinsicTriangulation, mass: str) -> tuple[Floats, Fl
 
 
 def corner_masses(triangles: IntrinsicTriangulation, sides: Floats, mass: str) -> Floats:
-    """Split the masses among the corners of the faces."""
-    if mass == "degree":
-        return np.asarray(sides.sum(axis=1, keepdims=True) - sides)
-    if mass == "unit":
-        around = np.bincount(triangles.faces.ravel(), minlength=triangles.n_vertices)
-        return np.asarray(1 / around[triangles.faces])
-    if mass == "consistent":  # (A/12)⁻¹ L_f has the eigenvalues of the pair, because L_f 1 = 0
-        return np.repeat(triangles.area_parts[:, None] / 12, 3, axis=1)
-    parts = _shares(triangles.dots, triangles.double_areas, AREA_KINDS[mass])
-    return np.asarray(parts) * (triangles.unit**2 / triangles.sheets)
-
-
-@kernel
-def _shares(dots: Any, double: Any, kind: int) -> Any:
-    """Split the area of each face among its corners."""
-    out = np.empty(dots.shape)
-    for f in range(dots.shape[0]):
-        out[f, 0], out[f, 1], out[f, 2] = shares(
-            dots[f, 0], dots[f, 1], dots[f, 2], double[f], kind
-        )
-    return out
+    """Split the masses among the corners of the faces; each sheet has its part of the areas."""
+    of_sheets = triangles.sheets if mass not in ("degree", "unit") else 1
+    parts = split_masses(mass, sides, triangles.faces, triangles.n_vertices, triangles.numbers)
+    return parts / of_sheets

@@ -8,7 +8,8 @@ import numpy as np
 from scipy.sparse import csr_array, issparse, triu
 
 from beltrami._arrays import Floats, read_only
-from beltrami.errors import DimensionError, MeshError, check_name
+from beltrami.errors import DimensionError, MeshError, check_name, shown
+from beltrami.mesh.door import require_mesh, topology_of
 from beltrami.mesh.edge_matrix import laplacian_matrix
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
@@ -23,7 +24,7 @@ from beltrami.operators.domain import Domain
 from beltrami.operators.intrinsic import IntrinsicTriangulation, intrinsic_delaunay
 from beltrami.operators.intrinsic_pair import intrinsic_laplacian
 from beltrami.operators.pair import GRAPH_MASSES, INTRINSIC, MASSES, TUFTED, Laplacian
-from beltrami.operators.soundness import refuse_unreferenced
+from beltrami.operators.soundness import refuse_unreferenced, require_degrees
 from beltrami.operators.weights import SYMMETRIC_WEIGHTS, Weigher, weigh_edges
 
 Source: TypeAlias = "Mesh | Topology | Domain | Any"  # Any: a symmetric sparse matrix of weights
@@ -103,18 +104,18 @@ def laplacian(
     rule = default if weights is None else weights
     weight_kind = "given" if callable(rule) else _checked_kind(rule)
     if weight_kind in (INTRINSIC, TUFTED):
-        cover = weight_kind == TUFTED
-        return intrinsic_laplacian(intrinsic_delaunay(_require_mesh(domain), cover=cover), mass)
+        mesh = require_mesh(domain, "intrinsic triangles")
+        return intrinsic_laplacian(intrinsic_delaunay(mesh, cover=weight_kind == TUFTED), mass)
     natural = "voronoi" if weight_kind in ("cotangent", "clamped") else "degree"
     mass_kind = check_name("mass", natural if mass is None else mass, MASSES)
-    topology = domain.topology if isinstance(domain, Mesh) else domain
+    topology = topology_of(domain)
     edge_weight, areas = _weights_and_areas(domain, rule, mass_kind)
     stiffness = laplacian_matrix(topology.edges, edge_weight, topology.n_vertices)
     if (np.diff(stiffness.indptr) == 1).any():  # a row that holds its diagonal alone
         refuse_unreferenced(topology)
     masses = _mass_matrix(domain, stiffness, mass_kind, areas)
     if mass_kind == "degree" and weight_kind == "given":
-        _require_degrees(masses.diagonal())
+        require_degrees(masses.diagonal())
     return Laplacian(stiffness, masses, topology.edges, edge_weight, weight_kind, mass_kind, domain)
 
 
@@ -128,18 +129,12 @@ def _checked_kind(name: object) -> str:
     return check_name("weights", name, (*SYMMETRIC_WEIGHTS, INTRINSIC, TUFTED))
 
 
-def _require_mesh(domain: Mesh | Topology) -> Mesh:
-    if not isinstance(domain, Mesh):
-        raise DimensionError("intrinsic triangles need the positions of the vertices: give a Mesh")
-    return domain
-
-
 def _weights_and_areas(
     domain: Mesh | Topology, weights: str | Weigher, mass: str
 ) -> tuple[Floats, Floats | None]:
     """Weigh the edges; cotangents and areas come out of one pass over the faces."""
-    if not isinstance(domain, Mesh) and mass not in ("degree", "unit"):
-        raise DimensionError(f"the {mass} mass needs the positions of the vertices: give a Mesh")
+    if mass not in ("degree", "unit"):
+        require_mesh(domain, f"the {mass} mass")
     if isinstance(domain, Mesh) and weights == "cotangent" and mass in AREA_KINDS:
         edge_weight, areas = accumulate(domain, True, AREA_KINDS[mass])
         return read_only(edge_weight), areas
@@ -168,7 +163,7 @@ def _of_graph(matrix: csr_array, weights: object, mass: str | None) -> Laplacian
     if abs(matrix - matrix.T).max() > 1e-12 * abs(matrix).max() or matrix.diagonal().any():
         raise MeshError("a matrix of weights is symmetric, with a zero diagonal")
     if weights is not None and not (isinstance(weights, str) and weights == "combinatorial"):
-        raise DimensionError(f"{weights!s:.40} weights need a Mesh: a graph brings its own weights")
+        raise DimensionError(f"{shown(weights)} weights need a Mesh: a graph has its own")
     upper = triu(matrix, 1).tocsr()
     upper.sum_duplicates()
     upper.eliminate_zeros()
@@ -179,15 +174,6 @@ def _of_graph(matrix: csr_array, weights: object, mass: str | None) -> Laplacian
     stiffness = laplacian_matrix(edges, edge_weight, n)
     kind = check_name("mass of a graph", "degree" if mass is None else mass, GRAPH_MASSES)
     masses = stiffness.diagonal() if kind == "degree" else np.ones(n)
-    _require_degrees(masses)
+    require_degrees(masses)
     name = "combinatorial" if weights else "given"
     return Laplacian(stiffness, diagonal_matrix(masses), edges, edge_weight, name, kind)
-
-
-def _require_degrees(masses: Floats) -> None:
-    if not (masses > 0).all():
-        raise MeshError(
-            "vertices have no positive degree, so D cannot be inverted",
-            vertices=np.flatnonzero(masses <= 0),
-            remedy='Drop them, or use mass="unit".',
-        )

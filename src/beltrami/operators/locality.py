@@ -9,6 +9,7 @@ from scipy.sparse import coo_array, issparse
 
 from beltrami._arrays import rectangular
 from beltrami.errors import DimensionError
+from beltrami.mesh.door import topology_of
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
 
@@ -42,14 +43,14 @@ def is_local(operator: Any, domain: Mesh | Topology) -> bool:
     >>> is_local(L, mesh), is_local(L @ L, mesh)
     (True, False)
     """
-    n = domain.n_vertices
+    topology = topology_of(domain)
+    n, edges = topology.n_vertices, topology.edges
     given: Any = operator if issparse(operator) else rectangular(operator)
+    if given.shape != (n, n):
+        raise DimensionError(f"an operator on {n} vertices is ({n}, {n}), not {given.shape}")
     matrix = coo_array(given)
-    if matrix.shape != (n, n):
-        raise DimensionError(f"an operator on {n} vertices is ({n}, {n}), not {matrix.shape}")
     matrix.sum_duplicates()
     i, j = matrix.coords
     far = (i != j) & (matrix.data != 0)
     low, high = np.minimum(i, j)[far], np.maximum(i, j)[far]
-    edges = domain.edges
     return bool(np.isin(low.astype(np.int64) * n + high, edges[:, 0] * n + edges[:, 1]).all())

@@ -10,7 +10,7 @@ from scipy.sparse import csr_array
 from scipy.spatial import cKDTree
 
 from beltrami._arrays import Floats, Integers, rectangular, require_finite
-from beltrami.errors import DimensionError, MeshError, check_name
+from beltrami.errors import DimensionError, MeshError, check_name, shown
 from beltrami.mesh.edge_matrix import symmetric_matrix
 
 GRAPH_WEIGHTS = ("combinatorial", "distance", "gaussian")
@@ -102,7 +102,7 @@ def checked_number(k: int, n: int) -> int:
     """Return k if it is an integer in 1..n-1; 2.0 is one."""
     if not isinstance(k, numbers.Real) or not 1 <= k < n or int(k) != k:
         raise MeshError(
-            f"{k!r} neighbours among {n} points", remedy=f"Choose an integer in 1..{n - 1}."
+            f"{shown(k)} neighbours among {n} points", remedy=f"Choose an integer in 1..{n - 1}."
         )
     return int(k)
 
@@ -138,6 +138,6 @@ def _weigh(edges: Integers, lengths: Floats, weights: str, scale: float | None) 
         return lengths
     sigma = float(lengths.mean()) if scale is None else scale
     if not isinstance(sigma, numbers.Real) or not np.isfinite(sigma) or sigma <= 0:
-        raise MeshError(f"the scale of gaussian weights is a positive length, not {sigma!r}")
+        raise MeshError(f"the scale of gaussian weights is a positive length, not {shown(sigma)}")
     with np.errstate(over="ignore"):  # so far away that the weight is 0
         return np.asarray(np.exp(-((lengths / float(sigma)) ** 2) / 2))

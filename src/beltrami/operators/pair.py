@@ -25,6 +25,7 @@ from beltrami.operators.guarantees import (
 )
 from beltrami.operators.intrinsic import IntrinsicTriangulation
 from beltrami.operators.intrinsic_parts import face_pairs
+from beltrami.operators.soundness import require_degrees
 
 GRAPH_MASSES = ("degree", "unit")
 MASSES = ("degree", "barycentric", "voronoi", "consistent", "unit")
@@ -108,7 +109,7 @@ class Laplacian:
         Chapter items: D9, P18.
         """
         self.require_non_negative("averaging")
-        self._require_degrees()
+        require_degrees(self.degrees)
         return read_only_matrix(csr_array(diagonal_matrix(1 / self.degrees) @ self.weights))
 
     @cached_property
@@ -117,7 +118,7 @@ class Laplacian:
 
         Chapter items: D15, T7, U20, R1, P32, P33.
         """
-        self._require_degrees()
+        require_degrees(self.degrees)
         root = diagonal_matrix(1 / np.sqrt(self.degrees))
         return read_only_matrix(csr_array(root @ self.stiffness @ root))
 
@@ -237,6 +238,15 @@ class Laplacian:
                 "needs no sign.",
             )
 
+    def require_semi_definite(self, what: str) -> None:
+        """Raise NegativeWeightError if <Lf, f> >= 0 is not proven: negative weights of yours."""
+        if len(self._negative_edges) and not self._of_a_surface:
+            raise NegativeWeightError(
+                f"{what} needs a positive semi-definite stiffness, and with negative weights that "
+                "are no cotangents nothing is proven",
+                edges=self._negative_edges,
+            )
+
     @cached_property
     def _negative_edges(self) -> Integers:
         """Return the edges with a negative weight."""
@@ -250,15 +260,6 @@ class Laplacian:
     @property
     def _of_a_surface(self) -> bool:
         return WEIGHT_KINDS.get(self.weight_kind, GIVEN).of_a_surface
-
-    def _require_degrees(self) -> None:
-        alone = np.flatnonzero(self.degrees <= 0)
-        if len(alone):
-            raise MeshError(
-                "D has no inverse: vertices have no positive degree",
-                vertices=alone,
-                remedy="Leave them out of the graph.",
-            )
 
     def _require_diagonal(self, what: str) -> None:
         if self.mass_kind == "consistent":

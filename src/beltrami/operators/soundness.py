@@ -4,8 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from beltrami._arrays import require_finite
-from beltrami.errors import DegenerateFaceError, EmptyMeshError, UnreferencedVertexError
+from beltrami._arrays import Floats, require_finite
+from beltrami.errors import (
+    DegenerateFaceError,
+    EmptyMeshError,
+    MeshError,
+    UnreferencedVertexError,
+)
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.geometry import degenerate_faces
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
@@ -48,8 +54,18 @@ def refuse_flat_faces(mesh: Mesh) -> None:
 
 
 def require_sound(mesh: Mesh) -> None:
-    """Raise unless there are faces, all coordinates are finite and no face is flat."""
-    require_faces(mesh.topology)
+    """Raise unless it is a Mesh with faces, finite coordinates and no flat face."""
+    require_faces(require_mesh(mesh).topology)
     require_positions(mesh)
     if len(degenerate_faces(mesh.vertices, mesh.faces)):
         refuse_flat_faces(mesh)
+
+
+def require_degrees(degrees: Floats) -> None:
+    """Raise MeshError, with the vertices, unless D can be inverted."""
+    if not (degrees > 0).all():
+        raise MeshError(
+            "vertices have no positive degree, so D cannot be inverted",
+            vertices=np.flatnonzero(~(degrees > 0)),
+            remedy='Leave them out of the graph; where D is but the mass, use mass="unit".',
+        )

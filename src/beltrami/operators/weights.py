@@ -17,6 +17,7 @@ from beltrami.errors import (
     NonFiniteError,
     check_name,
 )
+from beltrami.mesh.door import require_mesh, topology_of
 from beltrami.mesh.edge_matrix import symmetric_matrix
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
@@ -89,37 +90,34 @@ def edge_weights(domain: Mesh | Topology, kind: str | Weigher) -> csr_array:
     >>> bool(longer_is_weaker[0, 2] < longer_is_weaker[0, 1])
     True
     """
-    topology = domain.topology if isinstance(domain, Mesh) else domain
     if not callable(kind):
         check_name("weights", kind, (*SYMMETRIC_WEIGHTS, "mean_value"))
         if kind == "mean_value":
             return _unsymmetric_matrix(domain)
-    return symmetric_matrix(topology.edges, weigh_edges(domain, kind), topology.n_vertices)
+    weights = weigh_edges(domain, kind)
+    topology = topology_of(domain)
+    return symmetric_matrix(topology.edges, weights, topology.n_vertices)
 
 
 def weigh_edges(domain: Mesh | Topology, kind: str | Weigher) -> Floats:
     """Return the (p,) symmetric weights in the order of ``edges``: see ``edge_weights``."""
     if not callable(kind):
         check_name("weights", kind, SYMMETRIC_WEIGHTS)
-    topology = domain.topology if isinstance(domain, Mesh) else domain
-    require_faces(topology)
+        if kind != "combinatorial":
+            return _of_positions(require_mesh(domain, f"{kind} weights"), kind)
+    require_faces(topology_of(domain))
     if isinstance(domain, Mesh):
         require_positions(domain)
-    if callable(kind):
-        return _called(domain, kind)
-    if kind == "combinatorial":
-        return np.ones(topology.n_edges)
-    mesh = _require_mesh(domain, kind)
+    return _called(domain, kind) if callable(kind) else np.ones(len(domain.edges))
+
+
+def _of_positions(mesh: Mesh, kind: str) -> Floats:
+    require_faces(mesh.topology)
+    require_positions(mesh)
     if kind == "distance":
         return _distance_weights(mesh)
     weights = accumulate(mesh, True, NONE)[0]
     return np.maximum(weights, LEAST_CLAMPED) if kind == "clamped" else weights
-
-
-def _require_mesh(domain: Mesh | Topology, kind: str) -> Mesh:
-    if not isinstance(domain, Mesh):
-        raise DimensionError(f"{kind} weights need the positions of the vertices: give a Mesh")
-    return domain
 
 
 def _called(domain: Mesh | Topology, weigh: Weigher) -> Floats:
@@ -148,7 +146,7 @@ def _called(domain: Mesh | Topology, weigh: Weigher) -> Floats:
 
 def _unsymmetric_matrix(domain: Mesh | Topology) -> csr_array:
     """Return the mean value weights: row i holds those of the edges that leave i."""
-    mesh = _require_mesh(domain, "mean_value")
+    mesh = require_mesh(domain, "mean value weights")
     n, (i, j) = mesh.n_vertices, mesh.edges.T
     values = mean_value_weights(mesh).T.ravel()
     entries = (values, (np.concatenate([i, j]), np.concatenate([j, i])))

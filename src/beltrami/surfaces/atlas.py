@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from beltrami._arrays import Booleans, Floats, Integers, rectangular, require_finite
 from beltrami._frozen import Frozen
-from beltrami.errors import DimensionError, SurfaceError
+from beltrami.errors import DimensionError, SurfaceError, shown
 from beltrami.surfaces.inversion import invert
 from beltrami.surfaces.jets import Jet, plain
 from beltrami.surfaces.surface import ParametricSurface
@@ -147,7 +147,7 @@ class Atlas(Frozen):
 
     def _chart(self, number: int) -> ParametricSurface:
         if type(number) is bool or not isinstance(number, int | np.integer):
-            raise SurfaceError(f"a chart is named by its number, not by {number!r}")
+            raise SurfaceError(f"a chart is named by its number, not by {shown(number)}")
         if not 0 <= number < len(self.charts):
             raise SurfaceError(f"chart {number} of an atlas of {len(self.charts)}, counted from 0")
         return self.charts[number]

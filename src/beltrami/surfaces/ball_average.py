@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats
-from beltrami.errors import SurfaceError, check_name
+from beltrami.errors import SurfaceError, check_name, shown
 from beltrami.mesh.shapes.parameters import whole
 from beltrami.surfaces import checks, forms
 from beltrami.surfaces.functions import in_parameters, values_of
@@ -86,7 +86,7 @@ def ball_average_laplacian(
     """
     check_name("mean", over, MEANS)
     if not isinstance(radius, Real) or not 0 < radius < np.inf:
-        raise SurfaceError(f"the radius is {radius!r} where a positive number is needed")
+        raise SurfaceError(f"the radius is {shown(radius)} where a positive number is needed")
     directions = whole("directions", directions, least=3)
     fbar = in_parameters(surface, f, of)
     a, b, shape = checks.broadcast(u, v)

@@ -102,6 +102,8 @@ class Chart(Frozen):
 
         Chapter items: X1.
         """
+        if other is not None:
+            checks.require_surface(other)
         u, v = self.domain.samples(SAMPLES)
         mine = self.first_fundamental_form(u, v)
         wanted = np.eye(2) if other is None else other.first_fundamental_form(u, v)
@@ -129,6 +131,7 @@ class Chart(Frozen):
 
         Chapter items: P65.
         """
+        checks.require_callable(f, "f")
 
         def fbar(u: Any, v: Any) -> Any:
             if isinstance(u, Jet) or isinstance(v, Jet):
@@ -188,9 +191,9 @@ class Chart(Frozen):
         Raises
         ------
         SurfaceError
-            If periodic sides do not meet, or the cells are too few to close them.
-        DegenerateFaceError
-            If a face has no area: φ is constant along some line that is no side.
+            If periodic sides do not meet, or the cells are too few to close them; or if faces have
+            no area, as where φ is constant along some line that is no side: with the parameters
+            of a vertex of each.
         MeshError
             If nu or nv is not a whole number of 1 or more.
         """

@@ -11,6 +11,7 @@ from beltrami.errors import (
     NotDifferentiableError,
     RankLossError,
     SurfaceError,
+    shown,
 )
 from beltrami.surfaces.domain import ParameterDomain
 from beltrami.surfaces.immersion import Immersion
@@ -28,6 +29,20 @@ def broadcast(u: ArrayLike, v: ArrayLike) -> tuple[Floats, Floats, tuple[int, ..
     except ValueError:
         raise DimensionError(f"u of the shape {a.shape} does not go with v of {b.shape}") from None
     return a.ravel(), b.ravel(), a.shape
+
+
+def require_surface(surface: object) -> None:
+    """Raise SurfaceError if it has no immersion, as a ParametricSurface has."""
+    if not hasattr(surface, "immersion"):
+        raise SurfaceError(
+            f"a ParametricSurface is needed, not an object of type {type(surface).__name__}"
+        )
+
+
+def require_callable(f: object, what: str) -> None:
+    """Raise SurfaceError if it cannot be called."""
+    if not callable(f):
+        raise SurfaceError(f"{what} is {shown(f)} where a function is needed")
 
 
 def require_inside(domain: ParameterDomain, u: Floats, v: Floats) -> None:

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, rectangular
-from beltrami.errors import DimensionError, NotDifferentiableError, check_name
+from beltrami.errors import DimensionError, NotDifferentiableError, check_name, shown
 from beltrami.mesh.shapes.parameters import whole
 from beltrami.surfaces.charted import Charted
+from beltrami.surfaces.checks import require_callable
 from beltrami.surfaces.immersion import Derivatives, Map, call, derivatives_of, tabulate
 
 ROUTES = ("intrinsic", "extrinsic")
@@ -20,6 +21,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 def trace(chart: Charted, curve: Map, t: ArrayLike) -> Floats:
     """(..., k) points φ(γ(t)) of the curve γ: t -> (u, v)."""
+    require_callable(curve, "the curve")
     times = rectangular(t).astype(np.float64)
     uv = tabulate(call(curve, "the curve", 1, times.reshape(-1, 1)))
     _require_pairs(uv)
@@ -54,9 +56,10 @@ def extrinsic_length(chart: Charted, curve: Map, start: float, end: float, piece
 def length(chart: Charted, curve: Map, start: float, end: float, route: str, pieces: int) -> float:
     """Return the length of a curve by a route of ``ROUTES``; see ``Chart.curve_length``."""
     check_name("route", route, ROUTES)
+    require_callable(curve, "the curve")
     if not all(isinstance(t, Real) and np.isfinite(float(t)) for t in (start, end)):
         raise DimensionError(
-            f"a curve runs from {start!r} to {end!r}, and needs two finite numbers"
+            f"a curve runs from {shown(start)} to {shown(end)}, and needs two finite numbers"
         )
     measure = intrinsic_length if route == "intrinsic" else extrinsic_length
     return measure(chart, curve, start, end, whole("pieces", pieces, least=1))

@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from beltrami._arrays import Booleans, Floats
-from beltrami.errors import SurfaceError
+from beltrami.errors import SurfaceError, shown
 
 _TRUTH = (bool, np.bool_)
 _SLACK = 1e-9  # of the extent: parameters that rounding has put outside are inside
@@ -80,7 +80,7 @@ class Rectangle:
                 )
         flags: Any = self.periodic
         if np.ndim(flags) != 1 or [type(flag) in _TRUTH for flag in flags] != [True, True]:
-            raise SurfaceError(f"periodic is two truth values, and not {flags!r}")
+            raise SurfaceError(f"periodic is two truth values, and not {shown(flags)}")
 
     @property
     def extent(self) -> Floats:
@@ -138,9 +138,13 @@ class Disk:
     def __post_init__(self) -> None:
         center = _two_numbers(self.center, "the center")
         if not (isinstance(self.radius, Real) and 0 < self.radius < math.inf):
-            raise SurfaceError(f"the radius is {self.radius!r} where a positive number is needed")
+            raise SurfaceError(
+                f"the radius is {shown(self.radius)} where a positive number is needed"
+            )
         if not all(map(math.isfinite, center)):
-            raise SurfaceError(f"the center is {self.center!r} where finite numbers are needed")
+            raise SurfaceError(
+                f"the center is {shown(self.center)} where finite numbers are needed"
+            )
 
     @property
     def extent(self) -> Floats:
@@ -188,7 +192,7 @@ def as_domain(domain: Any, periodic: tuple[bool, bool]) -> Rectangle | Disk:
         intervals = (float(u0), float(u1)), (float(v0), float(v1))
     except (TypeError, ValueError, OverflowError):
         raise SurfaceError(
-            f"the domain is {domain!r} with periodic={periodic!r}",
+            f"the domain is {shown(domain)} with periodic={shown(periodic)}",
             remedy="Give ((u0, u1), (v0, v1)) and two truth values, or a Disk.",
         ) from None
     return Rectangle(*intervals, periodic=periodic)
@@ -201,7 +205,7 @@ def _two_numbers(pair: Any, what: str) -> tuple[float, float]:
             return float(first), float(second)
     except (TypeError, ValueError, OverflowError):
         pass
-    raise SurfaceError(f"{what} is {pair!r} where two numbers are needed")
+    raise SurfaceError(f"{what} is {shown(pair)} where two numbers are needed")
 
 
 def _spread(n: int) -> tuple[Floats, Floats]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from beltrami._arrays import Floats
 from beltrami.errors import check_name
-from beltrami.surfaces.checks import require_finite
+from beltrami.surfaces.checks import require_callable, require_finite, require_surface
 from beltrami.surfaces.immersion import Map, call, column
 
 if TYPE_CHECKING:
@@ -26,6 +26,8 @@ def in_parameters(chart: Chart, f: Map, of: str) -> Map:
         If it is neither of ``"space"`` nor of ``"parameters"``.
     """
     check_name("kind of function", of, KINDS)
+    require_surface(chart)
+    require_callable(f, "f")
     return chart.pullback(f) if of == "space" else f
 
 

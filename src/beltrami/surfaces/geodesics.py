@@ -52,6 +52,7 @@ def exponential_map(
     >>> plane(*exponential_map(plane, 1, 0, 0, 1)).round(6).tolist()  # straight up from (1, 0)
     [1.0, 1.0]
     """
+    checks.require_surface(surface)
     rows = [rectangular(x).astype(np.float64) for x in (u, v, du, dv)]
     try:
         state = np.stack(np.broadcast_arrays(*rows))

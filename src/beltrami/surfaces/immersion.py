@@ -9,6 +9,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from beltrami._arrays import Floats
+from beltrami.errors import SurfaceError
 from beltrami.surfaces.jets import Jet, compose, parts, plain, variables
 from beltrami.surfaces.outputs import entries
 
@@ -73,8 +74,14 @@ class Immersion:
 
 def call(function: Map, what: str, depth: int, *at: Any) -> Any:
     """Call a user's map at (n, 1) arrays or jets; return its functions in lists ``depth`` deep."""
-    with np.errstate(all="ignore"):  # what is not finite is told by who asked
-        result = function(*at)
+    try:
+        with np.errstate(all="ignore"):  # what is not finite is told by who asked
+            result = function(*at)
+    except TypeError as cause:
+        raise SurfaceError(
+            f"{what} cannot be called with {len(at)} arrays: {cause}",
+            remedy="Write it with numpy's functions, of as many parameters.",
+        ) from cause
     return entries(result, depth, np.shape(plain(at[0])), what)
 
 

@@ -6,11 +6,11 @@ import numpy as np
 
 from beltrami._arrays import Floats, Integers
 from beltrami.errors import SurfaceError
+from beltrami.mesh.geometry import degenerate_faces
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes.concentric import disk_faces, ring_points
 from beltrami.mesh.shapes.lattice import lattice_faces
 from beltrami.mesh.shapes.parameters import whole
-from beltrami.operators.soundness import require_sound
 from beltrami.surfaces.charted import Charted
 from beltrami.surfaces.domain import Disk, Rectangle
 from beltrami.surfaces.seams import glue
@@ -30,7 +30,13 @@ def mesh_chart(chart: Charted, nu: int, nv: int) -> Mesh:
             f"{nu} by {nv} cells are too few to close the seams and poles of this surface",
             remedy="Take 3 or more along a periodic parameter, 2 or more between two poles.",
         )
-    require_sound(mesh)
+    flat = degenerate_faces(mesh.vertices, mesh.faces)
+    if len(flat):
+        raise SurfaceError(
+            f"{len(flat)} of the {mesh.n_faces} faces between {nu} by {nv} cells have no area",
+            parameters=parameters[mesh.faces[flat, 0]],
+            remedy="Take a domain where the Jacobian of φ has rank 2, or more cells.",
+        )
     return mesh
 
 

@@ -3,34 +3,13 @@
 from __future__ import annotations
 
 import math
-import operator
+from numbers import Real
 
 import numpy as np
 
 from beltrami._arrays import Floats
-from beltrami.errors import MeshError
-
-
-def whole(name: str, value: int, least: int) -> int:
-    """Return a whole number that is at least ``least``.
-
-    Raises
-    ------
-    MeshError
-        If it is not an integer, or too small.
-
-    Examples
-    --------
-    >>> whole("nx", 4, least=1)
-    4
-    """
-    try:
-        number = operator.index(value)
-    except TypeError:
-        raise MeshError(f"{name} is {value!r} where a whole number is needed") from None
-    if number < least:
-        raise MeshError(f"{name} is {number} where {least} or more is needed")
-    return number
+from beltrami._arrays import whole as whole
+from beltrami.errors import MeshError, shown
 
 
 def positive(name: str, value: float) -> float:
@@ -46,10 +25,9 @@ def positive(name: str, value: float) -> float:
     >>> positive("radius", 2)
     2.0
     """
-    length = float(value)
-    if not (math.isfinite(length) and length > 0):
-        raise MeshError(f"{name} is {value!r} where a positive finite number is needed")
-    return length
+    if not (isinstance(value, Real) and math.isfinite(value) and value > 0):
+        raise MeshError(f"{name} is {shown(value)} where a positive finite number is needed")
+    return float(value)
 
 
 def flat(points: Floats, dimension: int) -> Floats:
@@ -67,5 +45,5 @@ def flat(points: Floats, dimension: int) -> Floats:
     [[1.0, 1.0, 0.0]]
     """
     if dimension not in (2, 3):
-        raise MeshError(f"dimension is {dimension!r} where 2 or 3 is needed")
+        raise MeshError(f"dimension is {shown(dimension)} where 2 or 3 is needed")
     return points if dimension == 2 else np.column_stack([points, np.zeros(len(points))])

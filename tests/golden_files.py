@@ -14,7 +14,7 @@ import numpy as np
 import beltrami as bt
 from beltrami.mesh.mesh import Mesh
 
-FOLDER = Path(__file__).parent / "golden"
+FOLDER = Path(__file__).parent / "compression" / "golden"
 
 
 def digest(mesh):

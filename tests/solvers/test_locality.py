@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array
 
-from beltrami.diffusion.locality import local_rows
 from beltrami.mesh.shapes import icosphere
+from beltrami.solvers.locality import local_rows
 from meshes_of_the_errata import MESHES
 
 

@@ -1,0 +1,86 @@
+"""The file of a basis: its arrays, and whether they belong together."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+
+from beltrami._arrays import Floats
+from beltrami.errors import FileFormatError
+from beltrami.io.npz import read_arrays, write_arrays
+
+KIND: Final = "Fourier basis"
+VERSION: Final = 1
+
+
+def write_basis(
+    path: str | os.PathLike[str],
+    eigenvalues: Floats,
+    eigenvectors: Floats,
+    residuals: Floats,
+    mass: csr_array,
+) -> None:
+    """Write the arrays of a basis, as a whole or not at all."""
+    arrays = {
+        "eigenvalues": eigenvalues,
+        "eigenvectors": eigenvectors,
+        "residuals": residuals,
+        "mass": mass.data,
+        "mass_columns": mass.indices,
+        "mass_starts": mass.indptr,
+    }
+    write_arrays(path, KIND, VERSION, arrays)
+
+
+def read_basis(path: str | os.PathLike[str]) -> tuple[Floats, Floats, Floats, csr_array]:
+    """Return eigenvalues, eigenvectors, residuals and mass, all of them read-only.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    FileFormatError
+        If it is not a whole and unchanged file of a basis.
+    """
+    arrays = read_arrays(path, KIND, VERSION)
+    try:
+        values, vectors, residuals = (
+            _floats(arrays[name]) for name in ("eigenvalues", "eigenvectors", "residuals")
+        )
+        if vectors.ndim != 2 or not (values.shape == residuals.shape == vectors.shape[1:]):
+            raise ValueError(f"shapes {values.shape}, {vectors.shape} and {residuals.shape}")
+        if (np.diff(values) < 0).any():
+            raise ValueError("eigenvalues that do not ascend")
+        return values, vectors, residuals, _mass(arrays, len(vectors))
+    except (KeyError, ValueError) as cause:
+        raise FileFormatError(Path(path), f"expected the arrays of a basis ({cause})") from cause
+
+
+def _mass(arrays: dict[str, NDArray[Any]], n: int) -> csr_array:
+    """Return the mass; KeyError or ValueError if its arrays do not make a sorted csr matrix."""
+    data, starts, columns = _floats(arrays["mass"]), arrays["mass_starts"], arrays["mass_columns"]
+    if data.ndim != 1 or columns.shape != data.shape or starts.shape != (n + 1,):
+        raise ValueError("the mass has other shapes")
+    if starts.dtype.kind != "i" or columns.dtype.kind != "i":
+        raise ValueError("the indices of the mass are no integers")
+    steps = np.diff(starts)
+    if starts[0] != 0 or starts[-1] != len(data) or (steps < 0).any():
+        raise ValueError("the rows of the mass are out of order")
+    follows = np.diff(columns, prepend=-1) > 0
+    follows[starts[:-1][steps > 0]] = True  # the first of each row
+    if not (follows & (columns >= 0) & (columns < n)).all():
+        raise ValueError("the columns of the mass are out of order")
+    return csr_array((data, columns, starts), (n, n))
+
+
+def _floats(array: NDArray[Any]) -> Floats:
+    if array.dtype != np.float64:
+        raise ValueError(f"numbers of the type {array.dtype}")
+    if not np.isfinite(array).all():
+        raise ValueError("numbers that are NaN or infinite")
+    return array

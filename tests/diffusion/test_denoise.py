@@ -1,0 +1,319 @@
+"""Denoising: the level of the noise, the risk, and that the choice is a good one."""
+
+import numpy as np
+import pytest
+
+from beltrami.diffusion.candidates import LINEAR, Bench, Linear, OfNormals, along_normals, filtered
+from beltrami.diffusion.denoise import denoise
+from beltrami.diffusion.noise import noise_level
+from beltrami.diffusion.patches import sample_of
+from beltrami.diffusion.risk import best_mixture, mixture_risk
+from beltrami.diffusion.smooth_mesh import smooth_mesh
+from beltrami.errors import (
+    BeltramiError,
+    DimensionError,
+    EmptyMeshError,
+    MeshError,
+    NonFiniteError,
+    UnknownNameError,
+)
+from beltrami.mesh import shapes
+from beltrami.mesh.mesh import Mesh
+
+
+def noisy(truth, level, seed=0):
+    """White noise along the normals, its level in mean edge lengths."""
+    sigma = level * truth.edge_lengths.mean()
+    noise = np.random.default_rng(seed).normal(0, sigma, truth.n_vertices)
+    return truth.with_vertices(truth.vertices + noise[:, None] * truth.vertex_normals), sigma
+
+
+def rms(mesh, truth):
+    return np.sqrt(((mesh.vertices - truth.vertices) ** 2).sum(axis=1).mean())
+
+
+def angle(mesh, truth):
+    cosine = np.einsum("ij,ij->i", mesh.face_normals, truth.face_normals)
+    return np.degrees(np.arccos(np.clip(cosine, -1, 1))).mean()
+
+
+BLOB = shapes.blob(2500)
+CUBE = shapes.cube(10)
+
+
+@pytest.mark.chapter("P42")
+@pytest.mark.parametrize("level", [0.1, 0.2, 0.35])
+@pytest.mark.parametrize(
+    "truth", [BLOB, shapes.cube(20), shapes.torus(60, 30)], ids=["blob", "cube", "torus"]
+)
+def test_the_level_of_white_noise(truth, level):
+    mesh, sigma = noisy(truth, level)
+    found = denoise(mesh, "linear").noise
+    assert found.sigma == pytest.approx(sigma, rel=0.25)
+    assert found.relative == pytest.approx(found.sigma / mesh.edge_lengths.mean())
+    assert not found.warnings
+
+
+class TestNoiseLevel:
+    def level(self, values, mesh=BLOB):
+        return noise_level(mesh.topology.adjacency, values)
+
+    def test_against_the_definition(self):
+        A = BLOB.topology.adjacency.toarray()
+        f = np.random.default_rng(0).normal(size=len(A))
+        K = np.eye(len(A)) - A / A.sum(axis=1)[:, None]
+        R = np.eye(len(A))
+        found = self.level(f)
+        for order in range(3):
+            R = R @ K
+            rough = R @ f / np.linalg.norm(R, axis=1)
+            expected = np.median(np.abs(rough)) / 0.6744897501960817
+            assert found.by_order[order] == pytest.approx(expected, rel=1e-10)
+            if order == 1:
+                assert found.sigma == pytest.approx(expected, rel=1e-10)
+                assert found.spread == pytest.approx(np.sqrt(np.mean(rough**2)), rel=1e-10)
+                assert found.kurtosis == pytest.approx(np.mean(rough**4) / np.mean(rough**2) ** 2)
+
+    def test_white_noise_is_white(self):
+        for seed in range(5):
+            f = 3 * np.random.default_rng(seed).normal(size=BLOB.n_vertices)
+            found = self.level(f)
+            assert found.sigma == pytest.approx(3, rel=0.06)
+            assert not found.warnings
+            assert abs(found.correlation) < 0.03
+            uniform = np.random.default_rng(seed).uniform(-1, 1, BLOB.n_vertices)
+            assert not self.level(uniform).warnings
+
+    def test_spikes_and_smoothed_noise_are_told(self):
+        rng = np.random.default_rng(4)
+        f = rng.normal(size=BLOB.n_vertices)
+        spikes = f * (rng.random(len(f)) < 0.15)
+        assert any("outliers" in text for text in self.level(spikes).warnings)
+        assert self.level(spikes).spread == pytest.approx(np.sqrt(0.15), rel=0.2)
+        assert self.level(spikes).sigma < 0.8 * self.level(spikes).spread
+        A = BLOB.topology.adjacency
+        smooth = (A @ f) / A.sum(axis=1)
+        assert any("not white" in text for text in self.level(smooth).warnings)
+
+    def test_smooth_functions_hardly_count(self):
+        f = np.random.default_rng(1).normal(size=BLOB.n_vertices)
+        wave = 10 * np.sin(2 * BLOB.vertices[:, 0])
+        assert self.level(0.1 * f + wave).sigma == pytest.approx(0.1, rel=0.1)
+
+
+class TestRisk:
+    def test_it_is_unbiased(self):
+        """The mean over 1000 noises of the estimate is the mean of the true error."""
+        rng = np.random.default_rng(0)
+        n, sigma = 60, 0.7
+        x = np.linalg.qr(rng.normal(size=(n, n)))[0]
+        truth = 3 * x[:, 0] + 2 * x[:, 1]
+        filters = [np.eye(n), x[:, :5] @ x[:, :5].T, x[:, :20] @ x[:, :20].T * 0.8]
+        weights = np.array([0.2, 0.5, 0.3])
+        divergence = np.array([np.trace(H) / n for H in filters])
+        risks, errors = [], []
+        for _ in range(1000):
+            y = truth + rng.normal(0, sigma, n)
+            moves = np.stack([H @ y - y for H in filters])
+            risks.append(mixture_risk(weights, moves @ moves.T / n, divergence, sigma))
+            errors.append(np.mean((y + weights @ moves - truth) ** 2))
+        off = np.subtract(risks, errors)
+        assert abs(off.mean()) < 3 * off.std() / np.sqrt(1000)
+        assert off.std() / np.sqrt(1000) < 0.04 * np.mean(errors)
+
+    @pytest.mark.parametrize("seed", range(5))
+    def test_no_other_mixture_is_better(self, seed):
+        rng = np.random.default_rng(seed)
+        moves = rng.normal(size=(6, 40)) * rng.uniform(0.1, 3, (6, 1))
+        gram, divergence = moves @ moves.T / 40, rng.uniform(0, 1, 6)
+        penalty = np.diag(rng.uniform(0, 1, 6))
+        best = best_mixture(gram, divergence, 0.8, penalty)
+        assert best.min() >= 0
+        assert best.sum() == pytest.approx(1)
+
+        def cost(w):
+            return mixture_risk(w, gram, divergence, 0.8) + w @ penalty @ w
+
+        for other in rng.dirichlet(np.full(6, 0.3), 500):
+            assert cost(other) >= cost(best) - 1e-6
+
+    def test_candidates_that_do_nothing(self):
+        weights = best_mixture(np.zeros((3, 3)), np.ones(3), 1.0, np.zeros((3, 3)))
+        assert weights == pytest.approx([1 / 3] * 3)
+
+
+class TestCandidates:
+    def test_a_linear_one_against_the_matrix(self):
+        mesh, _ = noisy(shapes.icosphere(2), 0.2)
+        A = mesh.topology.adjacency.toarray()
+        k, U = np.linalg.eig(np.eye(len(A)) - A / A.sum(axis=1)[:, None])
+        bench = Bench.of(mesh)
+        for one in (LINEAR[0], LINEAR[8], LINEAR[12], Linear(3.0, 2)):
+            gain = 1 / (1 + one.time * k.real**one.order)
+            moved = ((U * gain) @ np.linalg.solve(U, mesh.vertices)).real
+            expected = along_normals(mesh, moved)
+            assert np.allclose(filtered(mesh, bench, [one])[0], expected, atol=3e-3 * np.ptp(moved))
+
+    def test_those_of_normals_are_the_methods_of_smooth_mesh(self):
+        mesh, _ = noisy(CUBE, 0.2)
+        bench = Bench.of(mesh)
+        wanted = [OfNormals(True, 0.3, 6), OfNormals(False, 0.4, 3), OfNormals(True, 0.3, 3)]
+        found = filtered(mesh, bench, wanted)
+        for one, x in zip(wanted, found, strict=True):
+            method = "guided_normals" if one.guided else "bilateral_normals"
+            options = {"contrast": one.contrast, "steps": one.rounds}
+            assert np.array_equal(x, smooth_mesh(mesh, method, **options).vertices)
+
+    def test_displacements_along_normals(self):
+        sphere = shapes.icosphere(3)
+        rng = np.random.default_rng(0)
+        moved = sphere.vertices * 1.1 + rng.normal(0, 0.02, sphere.vertices.shape)
+        kept = along_normals(sphere, moved)
+        normals = sphere.with_vertices(moved).vertex_normals
+        way = kept - sphere.vertices
+        assert np.allclose(np.cross(way, normals), 0, atol=1e-14)
+        assert np.allclose(((moved - kept) * normals).sum(axis=1), 0, atol=1e-14)
+
+
+def test_samples_are_patches_of_the_mesh():
+    sample, vertices = sample_of(BLOB, 1600)
+    assert 0.6 * 1600 < sample.n_faces <= 1600
+    assert np.array_equal(sample.vertices, BLOB.vertices[vertices])
+    whole = {tuple(face) for face in BLOB.faces.tolist()}
+    assert {tuple(face) for face in vertices[sample.faces].tolist()} <= whole
+    assert sample.topology.n_components <= 8
+    same, everything = sample_of(BLOB, 10**6)
+    assert same is BLOB
+    assert np.array_equal(everything, np.arange(BLOB.n_vertices))
+
+
+@pytest.mark.chapter("P43")
+@pytest.mark.parametrize("level", [0.1, 0.3])
+def test_the_blind_choice_is_near_the_best_of_linear_filters_and_of_sweeps(level):
+    mesh, _ = noisy(BLOB, level, seed=3)
+    found = denoise(mesh)
+    bench = Bench.of(mesh)
+    best = min(rms(mesh.with_vertices(x), BLOB) for x in filtered(mesh, bench, LINEAR))
+    assert rms(found.mesh, BLOB) < 1.1 * best
+    taubin = [smooth_mesh(mesh, "taubin", steps=k) for k in (1, 2, 4, 8, 16, 32, 64)]
+    assert rms(found.mesh, BLOB) < 0.95 * min(rms(one, BLOB) for one in taubin)
+    assert found.predicted_error == pytest.approx(rms(found.mesh, BLOB), rel=0.3)
+    assert not found.warnings
+    assert found.volume_change == pytest.approx(found.mesh.volume / mesh.volume - 1, abs=1e-15)
+
+
+@pytest.mark.chapter("P45")
+def test_creases_are_kept_where_linear_filters_round_them():
+    mesh, _ = noisy(CUBE, 0.25, seed=1)
+    found, linear = denoise(mesh), denoise(mesh, "linear")
+    assert angle(found.mesh, CUBE) < 0.5 * angle(linear.mesh, CUBE)
+    assert rms(found.mesh, CUBE) < 0.7 * rms(linear.mesh, CUBE)
+    assert any("normals" in name for name, _ in found.mixture)
+    assert all(name.startswith("linear") for name, _ in linear.mixture)
+
+
+@pytest.mark.chapter("P15")
+def test_the_same_mesh_gives_the_same_bits_and_the_unit_does_not_matter():
+    mesh, sigma = noisy(shapes.blob(500), 0.2)
+    found, again = denoise(mesh), denoise(mesh)
+    assert np.array_equal(found.mesh.vertices, again.mesh.vertices)
+    for unit in (1e-6, 1e6):
+        scaled = denoise(mesh.with_vertices(unit * mesh.vertices))
+        assert np.allclose(scaled.mesh.vertices / unit, found.mesh.vertices, atol=1e-3 * sigma)
+        assert scaled.sigma == pytest.approx(unit * found.sigma)
+
+
+class TestNoiseOfOtherKinds:
+    def test_spikes_are_said_and_no_worse_than_the_best_linear_filter(self):
+        rng = np.random.default_rng(5)
+        sigma = BLOB.edge_lengths.mean()
+        noise = (rng.random(BLOB.n_vertices) < 0.1) * rng.normal(0, sigma, BLOB.n_vertices)
+        mesh = BLOB.with_vertices(BLOB.vertices + noise[:, None] * BLOB.vertex_normals)
+        found = denoise(mesh)
+        assert any("outliers" in text for text in found.warnings)
+        assert found.sigma == found.noise.spread
+        bench = Bench.of(mesh)
+        best = min(rms(mesh.with_vertices(x), BLOB) for x in filtered(mesh, bench, LINEAR))
+        assert rms(found.mesh, BLOB) < 1.1 * best
+        # with the level of the median it would smooth far too little
+        assert rms(denoise(mesh, "linear", noise=found.noise.sigma).mesh, BLOB) > 1.15 * best
+
+    def test_strong_noise_is_said(self):
+        mesh, _ = noisy(BLOB, 0.7)
+        found = denoise(mesh)
+        assert any("very strong" in text for text in found.warnings)
+        assert rms(found.mesh, BLOB) < 0.5 * rms(mesh, BLOB)
+
+    def test_a_known_level_is_taken(self):
+        mesh, sigma = noisy(BLOB, 0.2)
+        assert denoise(mesh, "linear", noise=sigma).sigma == sigma
+        more = denoise(mesh, "linear", noise=2 * sigma)
+        assert rms(more.mesh, mesh) > rms(denoise(mesh, "linear").mesh, mesh)
+
+    def test_no_noise_is_no_change(self):
+        plane = shapes.grid(8, 8)
+        x = np.column_stack([plane.vertices[:, :2], np.zeros(plane.n_vertices)])
+        found = denoise(Mesh(x, plane.faces))
+        assert np.allclose(found.mesh.vertices, x, atol=1e-12)
+        assert denoise(BLOB, "linear", noise=0.0).mesh.vertices == pytest.approx(
+            BLOB.vertices, abs=1e-9
+        )
+
+
+class TestScans:
+    def test_open_meshes_keep_their_boundary_in_place(self):
+        plane = shapes.grid(40, 40)
+        x, y = plane.vertices[:, :2].T
+        truth = Mesh(np.stack([x, y, 0.2 * np.sin(5 * x) * y], axis=1), plane.faces)
+        mesh, _ = noisy(truth, 0.25)
+        found = denoise(mesh)
+        assert np.isnan(found.volume_change)
+        assert rms(found.mesh, truth) < 0.45 * rms(mesh, truth)
+        rim = np.unique(truth.topology.boundary_edges)
+        drift = found.mesh.vertices[rim] - truth.vertices[rim]
+        assert np.abs(drift.mean(axis=0)).max() < 0.05 * truth.edge_lengths.mean()
+        plain = smooth_mesh(mesh, steps=5).vertices[rim] - truth.vertices[rim]
+        assert np.linalg.norm(drift, axis=1).mean() < 0.3 * np.linalg.norm(plain, axis=1).mean()
+
+    def test_components_strays_and_several_faces_on_an_edge(self):
+        truth = shapes.icosphere(3)
+        one, _ = noisy(truth, 0.2)
+        n = one.n_vertices
+        two = Mesh(  # and a leaf, and a vertex of no face
+            np.concatenate([one.vertices, one.vertices + 9, [[50.0, 0, 0]], [[0, 0, 7.0]]]),
+            np.concatenate([one.faces, one.faces + n, [[*one.edges[7], 2 * n + 1]]]),
+        )
+        found = denoise(two)
+        assert np.array_equal(found.mesh.vertices[2 * n], two.vertices[2 * n])
+        for part in (found.mesh.vertices[:n], found.mesh.vertices[n : 2 * n] - 9):
+            assert rms(truth.with_vertices(part), truth) < 0.7 * rms(one, truth)
+
+    @pytest.mark.parametrize("faces", [1, 4])
+    def test_few_faces(self, faces):
+        mesh = Mesh(np.eye(4, 3) + 1, [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]][:faces])
+        assert np.isfinite(denoise(mesh).mesh.vertices).all()
+
+    def test_what_is_refused(self):
+        with pytest.raises(UnknownNameError):
+            denoise(BLOB, "best")
+        for noise in (-1.0, np.nan, np.inf):
+            with pytest.raises(BeltramiError, match="noise must be"):
+                denoise(BLOB, noise=noise)
+        with pytest.raises(EmptyMeshError):
+            denoise(Mesh(np.zeros((3, 3)), np.zeros((0, 3), int)))
+        with pytest.raises(DimensionError):
+            denoise(Mesh(np.eye(3, 2), [[0, 1, 2]]))
+        x = BLOB.vertices.copy()
+        x[3] = np.inf
+        with pytest.raises(NonFiniteError):
+            denoise(BLOB.with_vertices(x))
+        faces = BLOB.faces.copy()
+        faces[5] = faces[5, ::-1]
+        with pytest.raises(MeshError, match=r"orient=True"):
+            denoise(Mesh(BLOB.vertices, faces))
+
+
+def test_progress_is_told():
+    told = []
+    denoise(noisy(shapes.icosphere(2), 0.2)[0], progress=lambda done, total: told.append(done))
+    assert told == [1, 3, 4]
