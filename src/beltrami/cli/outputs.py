@@ -54,6 +54,14 @@ def check_frames_output(path: Path) -> str:
     return check_name("format for frames (a folder has no suffix)", suffix, (".npy", *ANIMATED))
 
 
+def check_compressed_output(path: Path) -> None:
+    """Raise now what writing a compressed mesh to ``path`` would raise after the work."""
+    from beltrami.errors import check_name
+
+    _check_place(path)
+    check_name("format for compressed meshes", path.suffix.lower(), (".btm",))
+
+
 def _check_place(path: Path) -> None:
     """Refuse a directory, and a folder that is not there or cannot be written."""
     place = Path(os.path.realpath(path))

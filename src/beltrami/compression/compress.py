@@ -26,6 +26,7 @@ from beltrami.compression.grid import MOST_BITS, PositionGrid, grid_for
 from beltrami.compression.ordering import encode_order
 from beltrami.errors import BeltramiError, DimensionError, MeshError, check_name
 from beltrami.io.atomic import replacing
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
 
@@ -112,6 +113,7 @@ def compress(
     >>> len(data) < 1100, decompress(data).n_vertices
     (True, 642)
     """
+    require_mesh(mesh)
     check_name("mode", mode, MODES)
     check_name("effort", effort, EFFORTS)
     _check(mesh, max_error, bits)

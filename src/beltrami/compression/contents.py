@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 from beltrami.compression import grid as grids
 from beltrami.compression.container import (
@@ -51,6 +52,12 @@ class Contents:
     size: int
     features: tuple[str, ...]
     version: int = VERSION
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the fields, with the sections as a list."""
+        return asdict(self) | {
+            "sections": [{"name": name, "bytes": size} for name, size in self.sections]
+        }
 
 
 def describe(source: bytes | str | os.PathLike[str]) -> Contents:
