@@ -45,6 +45,7 @@ def examples():
         "damaged": (Mesh(cylinder.vertices, damaged, functions, uv), {"max_error": 1e-3}),
         "disk": (disk, {"bits": 14}),
         "five": (Mesh(rng.normal(size=(disk.n_vertices, 5)), disk.faces), {"bits": 6}),
+        "smooth": (bt.shapes.cylinder(20, 12), {"bits": 6, "mode": "smooth"}),
         "blob": (bt.shapes.blob(2000), {"bits": 11}),
     }
 

@@ -47,7 +47,7 @@ def test_info_tells_the_sections(beltrami, sphere, tmp_path):
     ("arguments", "code", "text"),
     [
         (("--relative",), 2, "--relative belongs to --max-error"),
-        (("--mode", "spectral"), 1, "choose one of 'auto', 'grid'"),
+        (("--mode", "spectral"), 1, "choose one of 'auto', 'grid', 'smooth'"),
         (("--effort", "bset"), 1, "Did you mean 'best'?"),
         (("--bits", 40), 1, "bits must be 1 to 30, not 40"),
     ],

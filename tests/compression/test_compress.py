@@ -47,7 +47,6 @@ def test_any_mesh_comes_back(mesh):
     check(mesh, max_error=0.01, keep_order=True, effort="fast")
 
 
-@pytest.mark.chapter("P60", "P67", "P68")
 @pytest.mark.parametrize("bits", [1, 4, 8, 12, 20, 30])
 def test_more_bits_less_error_more_bytes(bits):
     mesh = bt.shapes.icosphere(3)
@@ -68,15 +67,36 @@ def test_units_and_origins_do_not_matter(unit, shift):
     assert len(data) <= len(plain) + 40  # perhaps an origin in double precision
 
 
-@pytest.mark.chapter("P58")
 def test_the_decoder_rebuilds_order_and_faces_from_the_topology_alone():
-    """E87: other positions, the same faces: the same first section, the same order."""
+    """Other positions, the same faces: the same first section, the same order."""
     mesh = bt.shapes.cylinder(15, 8)
     other = mesh.with_vertices(np.random.default_rng(0).normal(size=mesh.vertices.shape))
     a, b = bt.decompress(bt.compress(mesh)), bt.decompress(bt.compress(other))
     np.testing.assert_array_equal(a.faces, b.faces)
     np.testing.assert_array_equal(bt.vertex_order(mesh), bt.vertex_order(mesh.topology))
     assert abs(b.vertices - other.vertices[bt.vertex_order(mesh)]).max() < 1e-3
+
+
+def rms(mesh, data):
+    x = mesh.vertices[bt.vertex_order(mesh)]
+    return np.sqrt(((bt.decompress(data).vertices - x) ** 2).mean())
+
+
+@pytest.mark.parametrize("bits", [4, 6, 8])
+def test_smooth_positions_are_nearer_for_the_same_bytes(bits):
+    mesh = bt.shapes.blob(2000)
+    plain, smooth = check(mesh, bits=bits), check(mesh, bits=bits, mode="smooth")
+    assert len(smooth) <= len(plain) + 8
+    assert rms(mesh, smooth) < (0.75 if bits < 7 else 0.95) * rms(mesh, plain)
+    assert describe(smooth).max_error <= 2 * describe(plain).max_error
+    assert (describe(plain).mode, describe(smooth).mode) == ("grid", "smooth")
+
+
+@pytest.mark.parametrize("max_error", [0.1, 0.02, 1e-4])
+def test_smooth_positions_keep_a_bound(max_error):
+    for mesh in (bt.shapes.blob(1000), bt.shapes.cube(4)):
+        data = check(mesh, max_error=max_error, mode="smooth")
+        assert describe(data).max_error <= max_error * (1 + 1e-9)
 
 
 def test_smooth_surfaces_cost_less_than_noise():
@@ -151,8 +171,7 @@ def test_writing_is_whole_or_not_at_all(tmp_path):
 @pytest.mark.parametrize(
     ("options", "error", "message"),
     [
-        ({"mode": "spectral"}, UnknownNameError, "choose one of 'auto', 'grid'"),
-        ({"mode": "smooth"}, UnknownNameError, "choose one of 'auto', 'grid'"),
+        ({"mode": "spectral"}, UnknownNameError, "choose one of 'auto', 'grid', 'smooth'"),
         ({"effort": "most"}, UnknownNameError, "choose one of 'best', 'fast'"),
         ({"bits": 0}, MeshError, "bits must be 1 to 30, not 0"),
         ({"bits": 31}, MeshError, "bits must be 1 to 30, not 31"),

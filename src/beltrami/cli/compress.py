@@ -32,7 +32,7 @@ def compress(
         int | None,
         typer.Option(help="2^bits grid points along the longest side.", show_default="14"),
     ] = None,
-    mode: Annotated[str, typer.Option(help="auto or grid.")] = "auto",
+    mode: Annotated[str, typer.Option(help="auto, grid or smooth.")] = "auto",
     effort: Annotated[str, typer.Option(help="best or fast.")] = "best",
     keep_order: Annotated[
         bool, typer.Option("--keep-order", help="Keep the numbers of the vertices.")

@@ -73,7 +73,7 @@ def encode_connectivity(topology: Topology) -> tuple[bytes, Connectivity]:
     --------
     >>> data, found = encode_connectivity(Topology([[0, 1, 2], [2, 1, 3]]))
     >>> found.vertices.tolist(), found.faces.tolist()
-    ([0, 2, 1, 3], [[0, 2, 1], [3, 1, 2]])
+    ([0, 1, 2, 3], [[0, 1, 2], [1, 3, 2]])
     """
     pieces = cut_into_pieces(topology)
     m, n = len(pieces.faces), len(pieces.vertex)

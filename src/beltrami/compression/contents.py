@@ -7,7 +7,6 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from beltrami.compression import grid as grids
 from beltrami.compression.container import (
     CONNECTIVITY,
     FEATURES,
@@ -17,7 +16,7 @@ from beltrami.compression.container import (
     Section,
     unpack,
 )
-from beltrami.compression.geometry import EFFORTS, MOST_COORDINATES
+from beltrami.compression.geometry import read_head
 from beltrami.errors import FileFormatError
 
 
@@ -33,6 +32,8 @@ class Contents:
         No vertex is farther than that from where it was, but for the rounding of coordinates.
     step
         Of the grid of positions.
+    mode
+        ``"grid"``, or ``"smooth"``: moved within the cells of the grid.
     effort
         ``"best"`` or ``"fast"``.
     sections
@@ -47,6 +48,7 @@ class Contents:
     dimension: int
     max_error: float
     step: float
+    mode: str
     effort: str
     sections: tuple[tuple[str, int], ...]
     size: int
@@ -85,17 +87,14 @@ def describe(source: bytes | str | os.PathLike[str]) -> Contents:
     if CONNECTIVITY not in by_kind or GRID not in by_kind:
         raise FileFormatError(path, "there are no faces, or no positions")
     n = by_kind[CONNECTIVITY].reader(path).varint()
-    reader = by_kind[GRID].reader(path)
-    d = reader.varint(MOST_COORDINATES, "coordinates")
-    effort = EFFORTS[reader.varint(len(EFFORTS) - 1, "effort")]
-    is_short = bool(reader.varint(1, "precision"))
-    grid = grids.from_bytes(reader.take((4 if is_short else 8) * (d + 1)), is_short)
+    head = read_head(by_kind[GRID].reader(path))
     return Contents(
         n,
-        d,
-        grid.bound,
-        grid.step,
-        effort,
+        len(head.grid.origin),
+        head.bound,
+        head.grid.step,
+        "smooth" if head.choice else "grid",
+        head.effort,
         tuple((NAMES[section.kind], _bytes_of(section)) for section in sections),
         len(data),
         tuple(text for bit, text in FEATURES.items() if features & bit),

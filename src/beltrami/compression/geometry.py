@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,6 +22,7 @@ from beltrami.compression.range_coder import (
     ran_dry,
     readable,
 )
+from beltrami.compression.smoothing import WEIGHTS, smoothed
 from beltrami.compression.tables import Table
 from beltrami.compression.varint import Reader, to_varints
 
@@ -33,20 +36,63 @@ def _groups(d: int) -> range:
     return range(0, d, 3)
 
 
-def _surroundings(faces: Integers, n: int) -> Neighbourhood:
+def surroundings(faces: Integers, n: int) -> Neighbourhood:
     """Look around, at faces of three vertices."""
     a, b, c = faces.T
     return look_around(faces[(a != b) & (b != c) & (c != a)], n)
 
 
+@dataclass(frozen=True)
+class Head:
+    """What precedes the positions; ``bound`` is that of the error."""
+
+    grid: PositionGrid
+    effort: str
+    choice: int
+    bound: float
+
+
+def read_head(reader: Reader) -> Head:
+    """Read what precedes the positions."""
+    d = reader.varint(MOST_COORDINATES, "coordinates")
+    if d < 2:
+        raise reader.fault(f"expected 2 or more coordinates, found {d}")
+    effort = EFFORTS[reader.varint(len(EFFORTS) - 1, "effort")]
+    is_short = bool(reader.varint(1, "precision"))
+    choice = reader.varint(len(WEIGHTS), "smoothing")
+    grid = grids.from_bytes(reader.take((4 if is_short else 8) * (d + 1)), is_short)
+    if not (np.isfinite(grid.origin).all() and 0 < grid.step < np.inf):
+        raise reader.fault("the grid of positions has no positive step, or no finite origin")
+    bound = float(np.frombuffer(reader.take(8), "<f8")[0]) if choice else grid.bound
+    return Head(grid, effort, choice, bound)
+
+
+def largest_error(x: Floats, grid: PositionGrid, near: Neighbourhood, choice: int) -> float:
+    """Return how far the decoded positions will be from x, at most."""
+    decoded = grid.points(smoothed(grid.round(x), near, choice))
+    return float(np.sqrt(((decoded - x) ** 2).sum(axis=1)).max()) if len(x) else 0.0
+
+
+def _rounded_up(x: float) -> NDArray[np.float64]:
+    return np.array([x * (1 + 2.0**-40)], "<f8")
+
+
 def encode_positions(
-    x: Floats, faces: Integers, grid: PositionGrid, effort: str, progress: Progress | None = None
+    x: Floats,
+    faces: Integers,
+    grid: PositionGrid,
+    effort: str,
+    choice: int = 0,
+    progress: Progress | None = None,
 ) -> bytes:
-    """Write positions (n, d), rounded to the grid."""
+    """Write positions (n, d), rounded to the grid; ``choice`` of smoothing is told the decoder."""
     numbers = grid.round(x)
     n, d = numbers.shape
-    near = _surroundings(faces, n)
-    data = to_varints([d, EFFORTS.index(effort), int(grid.is_short)]) + grids.to_bytes(grid)
+    near = surroundings(faces, n)
+    data = to_varints([d, EFFORTS.index(effort), int(grid.is_short), choice])
+    data += grids.to_bytes(grid)
+    if choice:
+        data += _rounded_up(largest_error(x, grid, near, choice)).tobytes()
     for first in _groups(d):
         part = np.zeros((n, 3), np.int64)
         part[:, : d - first] = numbers[:, first : first + 3]
@@ -66,27 +112,21 @@ def decode_positions(
     reader: Reader, faces: Integers, n: int, progress: Progress | None = None
 ) -> Floats:
     """Read positions (n, d)."""
-    d = reader.varint(MOST_COORDINATES, "coordinates")
-    if d < 2:
-        raise reader.fault(f"expected 2 or more coordinates, found {d}")
-    effort = EFFORTS[reader.varint(len(EFFORTS) - 1, "effort")]
-    is_short = bool(reader.varint(1, "precision"))
-    grid = grids.from_bytes(reader.take((4 if is_short else 8) * (d + 1)), is_short)
-    if not (np.isfinite(grid.origin).all() and 0 < grid.step < np.inf):
-        raise reader.fault("the grid of positions has no positive step, or no finite origin")
-    near = _surroundings(faces, n)
+    head = read_head(reader)
+    d, grid = len(head.grid.origin), head.grid
+    near = surroundings(faces, n)
     numbers = np.zeros((n, d), np.int64)
     for first in _groups(d):
         buffer = readable(reader.take(reader.varint()))
         part = np.zeros((n, 3), np.int64)
         state = new_decoder(buffer)
-        _run(part, near, effort, state, buffer, progress)
+        _run(part, near, head.effort, state, buffer, progress)
         if ran_dry(state, buffer):
             raise reader.fault("fewer positions than vertices")
         numbers[:, first : first + 3] = part[:, : d - first]
     reader_is_done(reader)
     with np.errstate(over="ignore"):
-        x = grid.points(numbers)
+        x = grid.points(smoothed(numbers, near, head.choice))
     if not np.isfinite(x).all():
         raise reader.fault("positions beyond the largest number")
     return x

@@ -38,7 +38,7 @@ class PositionGrid:
         """Return the numbers of the nearest points."""
         return np.floor((x - self.origin) / self.step + 0.5).astype(np.int64)
 
-    def points(self, numbers: Integers) -> Floats:
+    def points(self, numbers: Integers | Floats) -> Floats:
         """Return the points of these numbers."""
         scaled = numbers * self.step
         return scaled + self.origin

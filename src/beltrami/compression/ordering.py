@@ -31,7 +31,7 @@ def encode_order(order: Integers) -> bytes:
     Examples
     --------
     >>> data = encode_order(np.arange(1000))
-    >>> len(data) < 30, decode_order(Reader(data, "a.btm"), 1000).tolist() == list(range(1000))
+    >>> len(data) < 80, decode_order(Reader(data, "a.btm"), 1000).tolist() == list(range(1000))
     (True, True)
     """
     state = new_encoder()
