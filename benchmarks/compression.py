@@ -1,7 +1,9 @@
 """Bytes of compressed meshes, beside Draco: ``python -m benchmarks.compression [file ...]``.
 
 Both get the same vertices and faces, and round them to the same grid: 2^bits points along the
-longest side. Draco's bytes are the smallest over its levels. Every file of ours is decoded and
+longest side. Draco's bytes are the smallest over its levels. A second table compares at
+equal root mean square errors: Draco's is that of the grid, ours that of the mode "smooth", between
+whole bits by a line in logarithms. Every file of ours is decoded and
 compared, positions and faces; a mesh that does not come back has no ratio.
 """
 
@@ -32,7 +34,9 @@ FILES = (
     "igea.ply",
 )
 GOALS = {7: 0.65, 8: 0.71, 9: 0.75, 10: 0.78, 12: 0.84, 14: 0.88}
+EQUAL_ERROR_GOALS = {7: 0.50, 8: 0.60, 9: 0.68, 10: 0.75, 12: 0.84, 14: 0.88}
 CONNECTIVITY_GOAL = 0.90
+COARSEST = 4  # bits of the mode "smooth" that may reach Draco's error
 
 
 @dataclass(frozen=True)
@@ -46,6 +50,7 @@ class Sizes:
     connectivity: int
     draco: int
     seconds: tuple[float, float]
+    error: float  # root mean square, that of Draco too
 
     @property
     def ratio(self) -> float:
@@ -110,8 +115,31 @@ def measure(name: str, mesh: Any, bits: int, effort: str) -> Sizes:
     contents = package("beltrami.compression.contents").describe(data)
     connectivity = dict(contents.sections)["connectivity"]
     seconds = (middle - start, end - middle)
-    size = len(mesh.vertices)
-    return Sizes(name, bits, size, len(data), connectivity, draco(mesh, bits), seconds)
+    size, error = len(mesh.vertices), root_mean_square(mesh, decoded.vertices, order)
+    return Sizes(name, bits, size, len(data), connectivity, draco(mesh, bits), seconds, error)
+
+
+def root_mean_square(mesh: Any, found: NDArray[Any], order: NDArray[Any]) -> float:
+    """Return the root of the mean square distance of the vertices."""
+    return float(np.sqrt(((found - mesh.vertices[order]) ** 2).sum(axis=1).mean()))
+
+
+def smooth_curve(mesh: Any, bits: Sequence[int], effort: str) -> list[tuple[float, int]]:
+    """Return (error, bytes) of the mode "smooth" on these grids."""
+    bt = package("beltrami")
+    order = bt.vertex_order(mesh)
+    curve = []
+    for q in bits:
+        data = bt.compress(mesh, bits=q, mode="smooth", effort=effort, verify=False)
+        found = bt.decompress(data).vertices
+        curve.append((root_mean_square(mesh, found, order), len(data)))
+    return curve
+
+
+def bytes_at(error: float, curve: Sequence[tuple[float, int]]) -> float:
+    """Return the bytes that this error takes, by lines in logarithms; no fewer than the fewest."""
+    logs = np.log(sorted(curve))
+    return float(np.exp(np.interp(np.log(error), logs[:, 0], logs[:, 1])))
 
 
 def geometric_mean(values: Sequence[float]) -> float:
@@ -136,6 +164,25 @@ def report(sizes: Sequence[Sizes], bits: Sequence[int]) -> str:
     return "\n".join(lines)
 
 
+def equal_errors(
+    sizes: Sequence[Sizes], curves: dict[str, list[tuple[float, int]]], bits: Sequence[int]
+) -> str:
+    """Write a Markdown table: our bytes over Draco's, at the error that Draco has."""
+    lines = ["| equal error | " + " | ".join(f"{q} bits" for q in bits) + " |"]
+    lines.append("|---|" + "---|" * len(bits))
+    ratios = {one: bytes_at(one.error, curves[one.name]) / one.draco for one in sizes}
+    for name in curves:
+        cells = [f"{ratios[one]:.3f}" for one in sizes if one.name == name]
+        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+    means = []
+    for q in bits:
+        mean = geometric_mean([ratios[one] for one in sizes if one.bits == q])
+        goal = EQUAL_ERROR_GOALS.get(q)
+        means.append(f"**{mean:.3f}**" + (f" (goal {goal})" if goal else ""))
+    lines.append("| geometric mean | " + " | ".join(means) + " |")
+    return "\n".join(lines)
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure the files that are named, or those of the folder in BELTRAMI_MESHES."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.compression", description=__doc__)
@@ -144,7 +191,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--effort", default="best")
     asked = parser.parse_args(arguments)
     folder = Path(os.environ.get("BELTRAMI_MESHES", "."))
-    sizes, ratios = [], []
+    sizes, ratios, curves = [], [], {}
     for path in asked.files or [folder / name for name in FILES]:
         mesh = read(path)
         for bits in asked.bits:
@@ -153,10 +200,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
             rate = 1e5 / one.n
             told = "  ".join(f"{s * rate:.1f}" for s in one.seconds)
             print(f"{one.name} {bits}: {one.ratio:.3f}; seconds/100k: {told}", flush=True)
+        grids = range(COARSEST, max(asked.bits) + 1)
+        curves[path.name] = smooth_curve(mesh, grids, asked.effort)
         ratios.append(sizes[-1].connectivity / draco_connectivity(mesh))
         print(f"{path.name}: connectivity {ratios[-1]:.3f} of Draco's", flush=True)
     print()
     print(report(sizes, asked.bits))
+    print()
+    print(equal_errors(sizes, curves, asked.bits))
     print(f"\nConnectivity: {geometric_mean(ratios):.3f} of Draco's (goal {CONNECTIVITY_GOAL}).")
     return 0
 
