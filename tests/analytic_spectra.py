@@ -4,27 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.linalg
-from scipy.sparse import csc_array
-from scipy.sparse.linalg import eigsh
 from scipy.special import jn_zeros, jnp_zeros
 
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.pair import Laplacian
+from beltrami.spectrum.fourier_basis import fourier_basis
 
 
 def smallest_pairs(
     pair: Laplacian, k: int, hold: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """The k smallest eigenvalues and B-orthonormal eigenvectors, 0 where the mask ``hold`` is."""
-    free = np.ones(pair.n, bool) if hold is None else ~hold
-    L, B = (csc_array(M[free][:, free]) for M in (pair.stiffness, pair.mass))
-    shift = -1 / pair.masses.sum()
-    start = np.random.default_rng(6022139).normal(size=free.sum())
-    values, vectors = eigsh(L, k, B, sigma=shift, v0=start)
-    order = np.argsort(values)
-    whole = np.zeros((pair.n, k))
-    whole[free] = vectors[:, order]
-    return values[order], whole
+    basis = fourier_basis(pair, k, hold=() if hold is None else hold)
+    return basis.eigenvalues, basis.eigenvectors
 
 
 def smallest(pair: Laplacian, k: int, hold: np.ndarray | None = None) -> np.ndarray:

@@ -44,7 +44,7 @@ def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
     (tmp_path / "scan.off").write_text(text)
     commands = re.findall(r"^    beltrami (.*?)(?:  +#.*)?$", README, re.MULTILINE)
     commands = [c for c in commands if not c.startswith("tour -o")]
-    assert len(commands) == 11
+    assert len(commands) == 14
     for command in commands:
         words = command.replace("scan.ply", "scan.off").replace("--source 42", "--source 2")
         done = CliRunner().invoke(app, words.split())

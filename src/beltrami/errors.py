@@ -229,17 +229,7 @@ class ConvergenceError(BeltramiError, RuntimeError):
 
 
 class ApproximationError(ConvergenceError):
-    """A function of a matrix is not as near as it was wanted.
-
-    Parameters
-    ----------
-    problem
-        What is wrong, without a final stop.
-    estimate
-        The error reached, beside the largest value of the function.
-    remedy
-        What to do about it, as a sentence.
-    """
+    """h(B⁻¹L) is not as near as wanted; ``estimate`` is the error, beside the largest |h|."""
 
     def __init__(self, problem: str, estimate: float, remedy: str) -> None:
         self.estimate = estimate
@@ -296,12 +286,7 @@ class MissingExtraError(BeltramiError, ImportError):
 
 
 def check_name(what: str, name: object, choices: Sequence[str]) -> str:
-    """Return ``name`` if it is one of ``choices``.
-
-    Raises
-    ------
-    UnknownNameError
-        If it is not; the message lists the choices and the nearest one.
+    """Return ``name`` if it is one of ``choices``; UnknownNameError, with the nearest, if not.
 
     Examples
     --------

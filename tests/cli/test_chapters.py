@@ -9,10 +9,14 @@ from beltrami.cli.chapters.geodesics import geodesics
 from beltrami.cli.chapters.grid import grid as flat_grid
 from beltrami.cli.chapters.heat import heat
 from beltrami.cli.chapters.operators import operators
+from beltrami.cli.chapters.spectrum import spectrum
 from beltrami.cli.chapters.surface import surface
 from beltrami.io.registry import read_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import grid, icosphere
+from beltrami.operators.laplacian import laplacian
+from beltrami.spectrum.load_basis import load_basis
+from beltrami.spectrum.nodal_domains import nodal_domains
 
 TETRAHEDRON_FACES = [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]]
 MESHES = {
@@ -29,7 +33,7 @@ MESHES = {
         np.concatenate([TETRAHEDRON_FACES, np.add(TETRAHEDRON_FACES, 4)]),
     ),
 }
-CHAPTERS = (surface, operators, averaging, flat_grid, heat, geodesics, files)
+CHAPTERS = (surface, operators, averaging, flat_grid, heat, spectrum, geodesics, files)
 
 
 def stage(mesh, folder):
@@ -58,6 +62,24 @@ def test_the_volume_of_an_open_mesh_is_not_told(tmp_path):
     assert rows["volume"] == "undefined"
     rows = dict(row[:2] for row in surface(stage(MESHES["closed"], tmp_path)).rows)
     assert rows["volume"] == f"{MESHES['closed'].volume:.4g}"
+
+
+@pytest.mark.chapter("F3.7")
+def test_eigenfunctions_have_no_more_regions_than_courant_allows(tmp_path):
+    mesh = icosphere(3)
+    chapter = spectrum(stage(mesh, tmp_path))
+    basis = load_basis(tmp_path / "basis.npz", laplacian(mesh))
+    shown = [int(row[0]) for row in chapter.rows[1:]]
+    assert shown == [1, 2, 4, 8, 16, 32, 64, 128]
+    for i, row in zip(shown, chapter.rows[1:], strict=True):
+        assert row[1] == f"{basis.eigenvalues[i]:.4g}"
+        last = np.flatnonzero(basis.eigenvalues < basis.eigenvalues[i] * 1.01)[-1]
+        assert 2 <= nodal_domains(mesh, basis.eigenvectors[:, i]).count <= last + 1
+    with Image.open(tmp_path / "eigenfunctions.png") as picture:
+        pixels = np.asarray(picture.convert("RGB"), dtype=int)
+    assert (pixels[..., 0] - pixels[..., 2]).max() > 100  # red
+    assert (pixels[..., 2] - pixels[..., 0]).max() > 100  # blue
+    assert (pixels.max(axis=2) < 40).any()  # the lines of zero
 
 
 def test_half_the_cotangent_energy_is_the_area(tmp_path):

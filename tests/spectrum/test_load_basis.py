@@ -1,6 +1,5 @@
 import numpy as np
 import pytest
-from scipy.sparse import csr_array
 
 import beltrami as bt
 from beltrami.errors import DimensionError, FileFormatError, MeshError
@@ -36,6 +35,7 @@ def test_round_trip(place, name, mass):
         ):
             assert np.array_equal(one, other)
             assert one.dtype == np.float64
+        assert again.computation == basis.computation
         f = MESHES[name]().vertices
         assert np.array_equal(again.forward(f), basis.forward(f))
         again.save(place.with_name("again.npz"))
@@ -140,6 +140,17 @@ def _rewritten(place, **changes):
         ("mass_starts", lambda x: x[1:]),
         ("mass_starts", lambda x: x * 2),
         ("mass_starts", lambda x: x.astype(np.uint8)),
+        ("computation", lambda x: None),
+        ("computation", lambda x: np.array("{}")),
+        ("computation", lambda x: np.array("no json")),
+        ("computation", lambda x: np.array("3")),
+        ("computation", lambda x: np.array("[" * 100_000)),
+        (
+            "computation",
+            lambda x: np.array(str(x).replace('"solves": ', '"solves": Infinity, "y": ')),
+        ),
+        ("computation", lambda x: np.zeros(0)),
+        ("computation", lambda x: np.array(str(x).replace('"solves": ', '"solves": "x", "y": '))),
     ],
 )
 def test_arrays_that_do_not_belong_together(place, name, change):
@@ -162,15 +173,18 @@ def test_vertices_that_were_held_do_not_count(place):
     mesh = bt.shapes.grid(6, 6)
     pair = bt.laplacian(mesh)
     rim = np.abs(mesh.vertices - 0.5).max(axis=1) > 0.49
-    inner = bt.inverse_iteration(pair, 0, hold=rim)
-    basis = bt.FourierBasis(
-        np.array([inner.eigenvalue]),
-        inner.eigenvector[:, None].copy(),
-        csr_array(pair.mass),
-        np.array([1e-9]),
-    )
+    bt.fourier_basis(pair, 5, hold=rim).save(place)
+    assert bt.load_basis(place, pair).k == 5
+
+
+def test_a_large_basis_in_single_precision_is_still_one_of_its_pair(place):
+    pair = bt.laplacian(bt.shapes.icosphere(4))
+    basis = bt.fourier_basis(pair, 30)
+    assert basis.computation.method == "lanczos"
     basis.save(place)
-    assert bt.load_basis(place, pair).k == 1
+    assert bt.load_basis(place, pair).computation == basis.computation
+    with pytest.raises(MeshError, match="no eigenvectors of this stiffness"):
+        bt.load_basis(place, bt.laplacian(bt.shapes.icosphere(4), "combinatorial", "voronoi"))
 
 
 def test_a_file_of_something_else(place):

@@ -21,6 +21,7 @@ from beltrami.cli.regularize import regularize
 from beltrami.cli.render import render
 from beltrami.cli.repair import repair
 from beltrami.cli.smooth import smooth
+from beltrami.cli.spectrum import spectrum
 from beltrami.cli.tour import tour
 from beltrami.cli.wave import wave
 
@@ -44,6 +45,7 @@ for verb in (
     curvature,
     geodesics,
     integrate,
+    spectrum,
     descriptors,
     compress,
     decompress,

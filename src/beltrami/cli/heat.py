@@ -80,7 +80,7 @@ def heat(
             steps,
             hold=held,
             damped_steps=damped_steps,
-            basis=None if modes is None else fourier_basis(pair, modes),
+            basis=None if modes is None else fourier_basis(pair, modes, hold=held),
             progress=progress,
         )
     write_values(output, read, "heat" if data is None else data_name or data.stem, result)

@@ -62,6 +62,14 @@ def check_compressed_output(path: Path) -> None:
     check_name("format for compressed meshes", path.suffix.lower(), (".btm",))
 
 
+def check_basis_output(path: Path) -> None:
+    """Raise now what writing a basis to ``path`` would raise after the work."""
+    from beltrami.errors import check_name
+
+    _check_place(path)
+    check_name("format for a basis", path.suffix.lower(), (".npz",))
+
+
 def _check_place(path: Path) -> None:
     """Refuse a directory, and a folder that is not there or cannot be written."""
     place = Path(os.path.realpath(path))

@@ -79,10 +79,11 @@ def _play(stage: Stage) -> list[Chapter]:
     from beltrami.cli.chapters.grid import grid
     from beltrami.cli.chapters.heat import heat
     from beltrami.cli.chapters.operators import operators
+    from beltrami.cli.chapters.spectrum import spectrum
     from beltrami.cli.chapters.surface import surface
 
     acts: tuple[Callable[[Stage], Chapter], ...] = (
-        surface, operators, averaging, grid, heat, geodesics, files
+        surface, operators, averaging, grid, heat, spectrum, geodesics, files
     )  # fmt: skip
     played = []
     with waiting("touring") as progress:

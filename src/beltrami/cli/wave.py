@@ -93,7 +93,7 @@ def wave(
     times = np.linspace(0, time, frames)
     held = read.topology.on_boundary if hold_boundary else ()
     pair = laplacian(read, weights, mass)
-    basis = None if modes is None else fourier_basis(pair, modes)
+    basis = None if modes is None else fourier_basis(pair, modes, hold=held)
 
     def states() -> Frames:
         return swing(pair, start, speed, times, method, step=step, hold=held, basis=basis)

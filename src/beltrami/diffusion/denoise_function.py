@@ -17,6 +17,7 @@ from beltrami.diffusion.risk import best_mixture, mixture_risk
 from beltrami.errors import BeltramiError, MeshError
 from beltrami.mesh.edge_matrix import symmetric_matrix
 from beltrami.operators.areas import diagonal_matrix
+from beltrami.operators.domain import require_laplacian
 from beltrami.operators.pair import Laplacian
 from beltrami.solvers.factorize import factorize
 
@@ -109,6 +110,7 @@ def denoise_function(
     >>> round(clean.sigma[0], 1), bool(np.std(clean.values - truth) < 0.03)
     (0.3, True)
     """
+    require_laplacian(laplacian, "denoising a function")
     values = as_function(f, laplacian.n)
     if noise is not None and not (math.isfinite(noise) and noise >= 0):
         raise BeltramiError(f"the noise must be finite and >= 0, not {noise}")

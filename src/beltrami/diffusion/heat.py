@@ -22,6 +22,7 @@ from beltrami.diffusion.held import (
 from beltrami.diffusion.modes import Modes, find_modes
 from beltrami.diffusion.steady import steady_state
 from beltrami.errors import BeltramiError, StepTooLongError, check_name
+from beltrami.operators.domain import require_laplacian
 from beltrami.operators.pair import Laplacian
 from beltrami.spectrum.basis import FourierBasis
 
@@ -129,6 +130,7 @@ def heat(
     _refuse(method, _IN_STEPS, steps=steps)
     _refuse(method, ("crank_nicolson",), damped_steps=damped_steps)
     _refuse(method, ("spectral",), basis=basis, tolerance=tolerance)
+    require_laplacian(laplacian, "heat")
     values = as_function(f, laplacian.n)
     inflow = None if source is None else like_columns(source, values, "the source")
     held = held_vertices(hold, laplacian.n)

@@ -10,6 +10,7 @@ from beltrami._arrays import Floats
 from beltrami.diffusion.held import FreePart, free_part, held_values, positions_of
 from beltrami.errors import BeltramiError, MeshError
 from beltrami.operators.areas import diagonal_matrix
+from beltrami.operators.domain import require_laplacian
 from beltrami.operators.pair import Laplacian
 from beltrami.solvers.factorize import factorize
 
@@ -68,6 +69,7 @@ def interpolate(
     """
     if order not in (1, 2):
         raise BeltramiError(f"the order of interpolation is 1 or 2, not {order}")
+    require_laplacian(laplacian, "interpolation")
     laplacian.require_semi_definite("interpolation")
     held, fixed = held_values(vertices, values, laplacian.n)
     positions = positions_of(laplacian)

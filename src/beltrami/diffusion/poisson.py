@@ -12,6 +12,7 @@ from beltrami._arrays import Floats, as_function
 from beltrami.diffusion.held import FreePart, free_part, held_values, positions_of
 from beltrami.diffusion.steady import steady_state
 from beltrami.errors import BeltramiError, DimensionError, IncompatibleError
+from beltrami.operators.domain import require_laplacian
 from beltrami.operators.pair import Laplacian
 from beltrami.solvers.factorize import factorize
 
@@ -82,6 +83,7 @@ def poisson(
     True
     """
     laplacian.require_semi_definite("a Poisson problem")
+    require_laplacian(laplacian, "a Poisson problem")
     given = as_function(right, laplacian.n, "the right-hand side")
     held, fixed = held_values(hold, values, laplacian.n)
     if not (math.isfinite(screen) and screen >= 0):

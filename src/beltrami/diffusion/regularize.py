@@ -13,6 +13,7 @@ from beltrami.diffusion.held import FreePart, free_part, held_vertices, position
 from beltrami.diffusion.steady import steady_state
 from beltrami.errors import BeltramiError, DimensionError, MeshError, check_name
 from beltrami.operators.areas import diagonal_matrix
+from beltrami.operators.domain import require_laplacian
 from beltrami.operators.pair import Laplacian
 from beltrami.solvers.factorize import factorize
 
@@ -92,6 +93,7 @@ def regularize(
     [0.278 0.248 0.278 0.248]
     """
     check_name("form", form, FORMS)
+    require_laplacian(laplacian, "regularisation")
     laplacian.require_semi_definite("regularisation")
     values = as_function(f, laplacian.n)
     held = held_vertices(hold, laplacian.n)

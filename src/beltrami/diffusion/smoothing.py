@@ -12,6 +12,7 @@ from beltrami._arrays import Booleans, Floats, as_function, as_indices
 from beltrami._jit import kernel
 from beltrami._progress import Progress, stages
 from beltrami.errors import BeltramiError, StepTooLongError
+from beltrami.operators.domain import require_laplacian
 from beltrami.operators.pair import Laplacian
 from beltrami.solvers.locality import LocalRows, local_rows
 
@@ -76,6 +77,7 @@ def smooth(
     >>> smooth(triangle, [4.0, 0.0, 0.0], steps=2).tolist()
     [2.0, 1.0, 1.0]
     """
+    require_laplacian(laplacian, "averaging")
     values = as_function(f, laplacian.n)
     laplacian.require_non_negative("averaging")
     held = np.zeros(laplacian.n, np.bool_)

@@ -21,6 +21,7 @@ from beltrami.diffusion.modes import find_modes, norm, require_complete
 from beltrami.diffusion.steady import steady_state
 from beltrami.diffusion.wave_steps import implicit_states, leapfrog_states
 from beltrami.errors import BeltramiError, StepTooLongError, check_name
+from beltrami.operators.domain import require_laplacian
 from beltrami.operators.pair import Laplacian
 from beltrami.spectrum.basis import FourierBasis
 
@@ -119,6 +120,7 @@ def wave(
     2.0 -0.95 -0.95
     """
     check_name("method of wave", method, WAVE_METHODS)
+    require_laplacian(laplacian, "waves")
     position = as_function(f, laplacian.n)
     velocity = np.zeros_like(position) if g is None else like_columns(g, position, "the velocity")
     held = held_vertices(hold, laplacian.n)

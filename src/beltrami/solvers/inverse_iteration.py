@@ -11,6 +11,7 @@ from scipy.sparse import csr_array
 from beltrami._arrays import Floats, Integers, read_only
 from beltrami.errors import ConvergenceError, MeshError
 from beltrami.solvers.shifted import ShiftedSolver
+from beltrami.solvers.sign_rule import fix_signs
 
 _ROUNDING = 1e-14  # a change of the line that is no change
 _MEASURED = 1e-8  # the changes below are too near to rounding to tell a rate
@@ -18,7 +19,6 @@ _APART = 1e-6  # likewise for directions
 _SOLVE = 0.01  # residuals of a solve beside the last change of the line
 _COPY = 1e-6  # relative distance at which an eigenvalue is the same one again
 _NEXT = 1e-4  # relative accuracy of the next distance
-_TIE = 1e-6  # entries that differ by less are equally large
 _STEPS = 40  # of Lanczos, at most, for it
 
 
@@ -148,10 +148,9 @@ def _norm(B: csr_array, v: Floats) -> float:
 
 
 def _signed(v: Floats) -> Floats:
-    """Make the first of the largest entries positive; on symmetric meshes there are several."""
-    size = np.abs(v)
-    first = (size >= (1 - _TIE) * size.max()).argmax()
-    return v if v[first] > 0 else -v
+    column = v[:, None].copy()
+    fix_signs(column)
+    return column[:, 0].copy()
 
 
 def _normalised(B: csr_array, start: Floats) -> Floats:

@@ -62,7 +62,14 @@ class FourierBasis:
         OSError
             If the folder does not exist or cannot be written.
         """
-        write_basis(path, self.eigenvalues, self.eigenvectors, self.residuals, self.mass)
+        write_basis(
+            path,
+            self.eigenvalues,
+            self.eigenvectors,
+            self.mass,
+            self.residuals,
+            self.computation,
+        )
 
     @property
     def n(self) -> int:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import os
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Final
 
@@ -13,6 +15,7 @@ from scipy.sparse import csr_array
 from beltrami._arrays import Floats
 from beltrami.errors import FileFormatError
 from beltrami.io.npz import read_arrays, write_arrays
+from beltrami.solvers.computation import Computation
 
 KIND: Final = "Fourier basis"
 VERSION: Final = 1
@@ -22,8 +25,9 @@ def write_basis(
     path: str | os.PathLike[str],
     eigenvalues: Floats,
     eigenvectors: Floats,
-    residuals: Floats,
     mass: csr_array,
+    residuals: Floats,
+    computation: Computation,
 ) -> None:
     """Write the arrays of a basis, as a whole or not at all."""
     arrays = {
@@ -33,12 +37,15 @@ def write_basis(
         "mass": mass.data,
         "mass_columns": mass.indices,
         "mass_starts": mass.indptr,
+        "computation": np.array(json.dumps(asdict(computation))),
     }
     write_arrays(path, KIND, VERSION, arrays)
 
 
-def read_basis(path: str | os.PathLike[str]) -> tuple[Floats, Floats, Floats, csr_array]:
-    """Return eigenvalues, eigenvectors, residuals and mass, all of them read-only.
+def read_basis(
+    path: str | os.PathLike[str],
+) -> tuple[Floats, Floats, csr_array, Floats, Computation]:
+    """Return the fields of a basis, in their order; the arrays are read-only.
 
     Raises
     ------
@@ -56,8 +63,9 @@ def read_basis(path: str | os.PathLike[str]) -> tuple[Floats, Floats, Floats, cs
             raise ValueError(f"shapes {values.shape}, {vectors.shape} and {residuals.shape}")
         if (np.diff(values) < 0).any():
             raise ValueError("eigenvalues that do not ascend")
-        return values, vectors, residuals, _mass(arrays, len(vectors))
-    except (KeyError, ValueError) as cause:
+        mass = _mass(arrays, len(vectors))
+        return values, vectors, mass, residuals, _computation(arrays["computation"])
+    except (LookupError, TypeError, ValueError, OverflowError, RecursionError) as cause:
         raise FileFormatError(Path(path), f"expected the arrays of a basis ({cause})") from cause
 
 
@@ -76,6 +84,21 @@ def _mass(arrays: dict[str, NDArray[Any]], n: int) -> csr_array:
     if not (follows & (columns >= 0) & (columns < n)).all():
         raise ValueError("the columns of the mass are out of order")
     return csr_array((data, columns, starts), (n, n))
+
+
+def _computation(array: NDArray[Any]) -> Computation:
+    """Return how the basis was found; an error if a field is missing or of another type."""
+    given = json.loads(str(array[()]))
+    return Computation(
+        method=str(given["method"]),
+        precision=str(given["precision"]),
+        shift=float(given["shift"]),
+        basis=int(given["basis"]),
+        solves=int(given["solves"]),
+        history=tuple(float(size) for size in given["history"]),
+        counted_within=float(given["counted_within"]),
+        seconds=tuple((str(stage), float(time)) for stage, time in given["seconds"]),
+    )
 
 
 def _floats(array: NDArray[Any]) -> Floats:

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from beltrami._arrays import Floats, as_function
 from beltrami._progress import Progress
 from beltrami.errors import BeltramiError, DimensionError, check_name
+from beltrami.operators.domain import require_laplacian
 from beltrami.operators.pair import Laplacian
 from beltrami.spectrum.basis import FourierBasis
 from beltrami.spectrum.chebyshev import chebyshev_series
@@ -99,6 +100,7 @@ def filter(  # noqa: A001
     0.37
     """
     check_name("method of filtering", method, FILTER_METHODS)
+    require_laplacian(laplacian, "filters")
     values = as_function(f, laplacian.n)
     if not (tolerance > 0 and math.isfinite(tolerance)):
         raise BeltramiError(f"tolerance must be finite and > 0, not {tolerance}")

@@ -13,6 +13,7 @@ from scipy.sparse import csr_array
 from beltrami._arrays import Booleans, Floats, as_indices
 from beltrami.errors import BeltramiError, MeshError
 from beltrami.mesh.mesh import Mesh
+from beltrami.operators.domain import require_laplacian
 from beltrami.operators.pair import Laplacian
 from beltrami.solvers.eigenpairs import Eigenpairs, eigenpairs
 from beltrami.spectrum.basis import FourierBasis
@@ -93,6 +94,7 @@ def fourier_basis(
     >>> basis.eigenvalues.round(1).tolist(), bool(basis.orthogonality < 1e-9)
     ([0.0, 2.0, 2.0, 2.0], True)
     """
+    require_laplacian(laplacian, "eigenpairs")
     held = as_indices(hold, laplacian.n, "held vertices")
     free = np.ones(laplacian.n, np.bool_)
     free[held] = False

@@ -13,6 +13,7 @@ from scipy.sparse import csr_array
 from beltrami._arrays import Booleans, Floats, as_function, as_indices
 from beltrami.errors import BeltramiError, DimensionError, MeshError
 from beltrami.mesh.mesh import Mesh
+from beltrami.operators.domain import require_laplacian
 from beltrami.operators.pair import Laplacian
 from beltrami.solvers.inverse_iteration import InverseIteration, iterate
 from beltrami.solvers.shifted import shifted_solver
@@ -96,6 +97,7 @@ def inverse_iteration(
     (2.0, 0.05, 0.0526)
     """
     sigma = _finite("shift", shift)
+    require_laplacian(laplacian, "inverse iteration")
     v = _start(laplacian, start, seed)
     limit = _finite("tolerance", tolerance)
     if not 0 < limit < 1:

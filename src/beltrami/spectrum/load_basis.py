@@ -58,8 +58,7 @@ def load_basis(path: str | os.PathLike[str], laplacian: Laplacian | None = None)
     ...     load_basis(place, pair)
     <FourierBasis: 9 of 162 eigenpairs>
     """
-    values, vectors, residuals, mass = read_basis(path)
-    basis = FourierBasis(values, vectors, mass, residuals)
+    basis = FourierBasis(*read_basis(path))
     if laplacian is not None:
         _require_same(basis, laplacian)
     return basis
