@@ -8,7 +8,9 @@ import pytest
 from PIL import Image
 from typer.testing import CliRunner
 
+import beltrami as bt
 from beltrami.cli.app import app
+from beltrami.mesh import shapes
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -38,16 +40,13 @@ def test_the_code_of_the_readme_runs(tmp_path, monkeypatch, capsys):
 
 def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    lines = [(-0.9, -0.4, 0.1), (0.8, -0.5, 0), (0, 0.9, 0.2), (0.1, 0, 1), (9, 9, 9)]
-    faces = "4 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n".replace("4 0", "3 0", 1)
-    text = "OFF\n5 4 0\n" + "\n".join(" ".join(map(str, x)) for x in lines) + "\n" + faces
-    (tmp_path / "scan.off").write_text(text)
+    blob = shapes.blob(150)
+    bt.write_mesh("scan.ply", bt.Mesh([*blob.vertices, [9, 9, 9]], blob.faces))
     commands = re.findall(r"^    beltrami (.*?)(?:  +#.*)?$", README, re.MULTILINE)
     commands = [c for c in commands if not c.startswith("tour -o")]
     assert len(commands) == 14
     for command in commands:
-        words = command.replace("scan.ply", "scan.off").replace("--source 42", "--source 2")
-        done = CliRunner().invoke(app, words.split())
+        done = CliRunner().invoke(app, command.split())
         assert done.exit_code == 0, (command, done.output)
     assert (tmp_path / "tour" / "index.html").is_file()
 
