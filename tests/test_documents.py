@@ -40,7 +40,7 @@ def test_the_code_of_the_readme_runs(tmp_path, monkeypatch, capsys):
 
 def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    blob = shapes.blob(150)
+    blob = shapes.blob(500)
     bt.write_mesh("scan.ply", bt.Mesh([*blob.vertices, [9, 9, 9]], blob.faces))
     commands = re.findall(r"^    beltrami (.*?)(?:  +#.*)?$", README, re.MULTILINE)
     commands = [c for c in commands if not c.startswith("tour -o")]

@@ -66,7 +66,7 @@ Filter: TypeAlias = Linear | OfNormals | OfVariation
 LINEAR: tuple[Filter, ...] = tuple(
     Linear(float(time), order)
     for order in (2, 3)
-    for time in np.geomspace(0.3, 1000, 9) ** (order / 2)
+    for time in np.geomspace(0.03, 1000, 12) ** (order / 2)
 )
 OF_NORMALS: tuple[Filter, ...] = (
     *(OfNormals(False, c, k) for c in (0.25, 0.4, 0.6, 0.9) for k in (3, 6, 12, 24)),

@@ -96,7 +96,7 @@ def denoise(
 ) -> Denoised:
     r"""Remove the noise of a mesh; how much there is, and how, is found from the mesh.
 
-    The level of the noise is measured along the normals (``noise_level``). Then 57 filters are
+    The level of the noise is measured along the normals (``noise_level``). Then 63 filters are
     tried: linear ones, bilateral and guided filters of the normals, and normals of small total
     variation, of many strengths; and mixed with those weights that make Stein's unbiased estimate
     of the error least. The result is filtered once more, by normals, if that lowers the estimate.

@@ -27,7 +27,7 @@ class NoiseLevel:
     sigma
         Standard deviation, in the unit of the data: of a mesh, along its normals.
     spread
-        The same with outliers counted in: the root mean square instead of the median.
+        Root mean square of the differences of order 2, outliers counted in.
     by_order
         Estimates of sigma by differences of the order 1, 2 and 3: what is smooth, or noise that
         is, makes the first ones larger.
@@ -59,7 +59,7 @@ def noise_level(
 ) -> NoiseLevel:
     r"""Estimate the level of white noise on f: median absolute deviation of its rough part.
 
-    The rough part is :math:`R f`, :math:`R = (Id - \tilde W)^2`, each row over its norm, so that
+    The rough part is :math:`R f`, :math:`R = (Id - \tilde W)^3`, each row over its norm, so that
     white noise of the level σ stays so; smooth functions leave little there. The median does not
     see the few vertices at creases, or outliers.
 
@@ -97,9 +97,9 @@ def noise_level(
     square = float(np.mean(second**2))
     kurtosis = float(np.mean(second**4) / square**2) if square > 0 else 3.0
     excess = _correlation(adjacency, standard[2]) - _correlation(adjacency, white)
-    relative = levels[1] / edge_length if edge_length else np.nan
+    relative = levels[2] / edge_length if edge_length else np.nan
     return NoiseLevel(
-        levels[1],
+        levels[2],
         float(np.sqrt(square)),
         (levels[0], levels[1], levels[2]),
         kurtosis,

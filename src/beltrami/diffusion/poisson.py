@@ -82,8 +82,8 @@ def poisson(
     >>> bool(abs(u - z / 2).max() < 1e-4)
     True
     """
-    laplacian.require_semi_definite("a Poisson problem")
     require_laplacian(laplacian, "a Poisson problem")
+    laplacian.require_semi_definite("a Poisson problem")
     given = as_function(right, laplacian.n, "the right-hand side")
     held, fixed = held_values(hold, values, laplacian.n)
     if not (math.isfinite(screen) and screen >= 0):
