@@ -132,6 +132,8 @@ def test_functions_and_texture_coordinates_come_back_exactly():
     data = {
         "height": rng.normal(size=mesh.n_vertices),
         "colour": rng.integers(0, 256, (mesh.n_vertices, 3), dtype=np.uint8),
+        "big": np.arange(mesh.n_vertices).astype(">i4"),
+        "inside": rng.random(mesh.n_vertices) < 0.5,
         "missing": np.full(mesh.n_vertices, np.nan),
     }
     uv = rng.normal(size=(len(faces), 3, 2))

@@ -206,7 +206,13 @@ def _verify(
     same = np.array_equal(decoded.faces, faces) and error <= bound + rounding
     for name, values in mesh.vertex_data.items():
         kept = values if keep_order else values[found.vertices]
-        same = same and decoded.vertex_data[name].tobytes() == kept.tobytes()
+        ordered = kept.astype(kept.dtype.newbyteorder("<"))
+        same = same and decoded.vertex_data[name].tobytes() == ordered.tobytes()
+    if mesh.corner_uv is not None:
+        uv = _corners(mesh.corner_uv, mesh.topology, found)
+        same = (
+            same and decoded.corner_uv is not None and decoded.corner_uv.tobytes() == uv.tobytes()
+        )
     if not same:
         raise BeltramiError(
             "decoding does not give the mesh back: please report this, it is a defect of beltrami"

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import zlib
 from dataclasses import dataclass
 
 from beltrami.compression.varint import Reader, to_varints
+from beltrami.io.source import load
 
 MAGIC = b"\x89BTM"
 VERSION = 1
@@ -36,6 +38,13 @@ class Section:
     def reader(self, path: object) -> Reader:
         """Read its bytes."""
         return Reader(self.payload, path, self.start)
+
+
+def bytes_of(source: bytes | str | os.PathLike[str]) -> tuple[bytes, object]:
+    """Return (bytes, name for errors) of a file, or of bytes themselves."""
+    if isinstance(source, bytes | bytearray | memoryview):
+        return bytes(source), "<bytes>"
+    return load(source).data.tobytes(), source
 
 
 def pack(features: int, sections: list[Section]) -> bytes:

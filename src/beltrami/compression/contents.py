@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any
 
 from beltrami.compression.container import (
@@ -14,6 +13,7 @@ from beltrami.compression.container import (
     NAMES,
     VERSION,
     Section,
+    bytes_of,
     unpack,
 )
 from beltrami.compression.geometry import read_head
@@ -78,10 +78,7 @@ def describe(source: bytes | str | os.PathLike[str]) -> Contents:
     >>> contents.n_vertices, round(contents.max_error, 6), contents.effort
     (42, 0.01, 'best')
     """
-    if isinstance(source, bytes | bytearray | memoryview):
-        data, path = bytes(source), "<bytes>"
-    else:
-        data, path = Path(source).read_bytes(), str(source)
+    data, path = bytes_of(source)
     features, sections = unpack(data, path)
     by_kind = {section.kind: section for section in sections}
     if CONNECTIVITY not in by_kind or GRID not in by_kind:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,6 +19,7 @@ from beltrami.compression.container import (
     ORDER,
     UV,
     Section,
+    bytes_of,
     unpack,
 )
 from beltrami.compression.functions import decode_array
@@ -64,7 +64,7 @@ def decompress(
     >>> decompress(compress(icosphere(1), bits=10))
     <Mesh: 42 vertices in R³, 80 faces>
     """
-    data, path = _bytes_of(source)
+    data, path = bytes_of(source)
     features, sections = unpack(data, path)
     faces, n = decode_connectivity(_the(CONNECTIVITY, sections, path), max_vertices)
     x = decode_positions(_the(GRID, sections, path), faces, n, progress)
@@ -73,6 +73,8 @@ def decompress(
     for section in sections:
         if section.kind == DATA:
             name, values = decode_array(section.reader(path), n)
+            if name in functions:
+                raise FileFormatError(path, f"two functions of the name {name!r}")
             functions[name] = values
         elif section.kind == UV:
             uv = _checked_uv(section.reader(path), len(faces))
@@ -84,12 +86,6 @@ def decompress(
         x = _sorted_back(x, order)
         functions = {name: _sorted_back(values, order) for name, values in functions.items()}
     return Mesh(x, faces, functions, uv)
-
-
-def _bytes_of(source: bytes | str | os.PathLike[str]) -> tuple[bytes, object]:
-    if isinstance(source, bytes | bytearray | memoryview):
-        return bytes(source), "<bytes>"
-    return Path(source).read_bytes(), source
 
 
 def _the(kind: int, sections: list[Section], path: object) -> Reader:

@@ -48,7 +48,7 @@ def decode_array(reader: Reader, rows: int) -> tuple[str, NDArray[Any]]:
         name = label.decode()
     except UnicodeDecodeError as cause:
         raise reader.fault("a name that is not UTF-8") from cause
-    tail = [reader.varint(1 << 16, "columns") for _ in range(reader.varint(2, "axes"))]
+    tail = [reader.varint(1 << 16, "columns") for _ in range(reader.varint(1, "axes"))]
     size = np.dtype(kind).itemsize
     count = rows * math.prod(tail)
     deflated = reader.rest()
@@ -62,4 +62,6 @@ def decode_array(reader: Reader, rows: int) -> tuple[str, NDArray[Any]]:
     if len(plain) != count * size or not inflating.eof:
         raise reader.fault(f"expected {count * size} bytes, found {len(plain)} or more")
     planes = np.frombuffer(plain, np.uint8).reshape(size, count)
+    if kind == "|b1" and (planes > 1).any():
+        raise reader.fault("truth values that are neither 0 nor 1")
     return name, np.ascontiguousarray(planes.T).view(kind).reshape(rows, *tail)
