@@ -1,4 +1,6 @@
 import json
+import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -68,3 +70,37 @@ def test_other_files_are_refused(beltrami, sphere, tmp_path):
     wrong = tmp_path / "a.btm"
     wrong.write_bytes(sphere.read_bytes())
     assert "not a .btm file" in beltrami("info", wrong).stderr
+
+
+def test_the_curve_has_more_bytes_and_less_error(beltrami, sphere, tmp_path):
+    done = beltrami("compress", sphere, "--curve", "--effort", "fast", "--json")
+    assert done.exit_code == 0, done.stderr
+    rows = json.loads(done.stdout)
+    sizes, errors = [row["bytes"] for row in rows], [row["rms"] for row in rows]
+    assert [row["bits"] for row in rows] == list(range(6, 15))
+    assert sizes == sorted(sizes)
+    assert errors == sorted(errors, reverse=True)
+    assert all(row["rms_smooth"] <= row["rms"] < row["largest"] for row in rows)
+    told = beltrami("compress", sphere, "--curve", "--effort", "fast").stdout.splitlines()
+    assert len(told) == 10
+    assert told[1].split()[:2] == ["6", str(sizes[0])]
+
+
+def test_draco_stands_beside_where_it_is_installed(beltrami, sphere, monkeypatch):
+    fake = SimpleNamespace(
+        encode=lambda *_, compression_level, **__: bytes(100 * compression_level)
+    )
+    monkeypatch.setitem(sys.modules, "DracoPy", fake)
+    done = beltrami("compress", sphere, "--curve", "--effort", "fast", "--json")
+    assert {row["draco_bytes"] for row in json.loads(done.stdout)} == {500}
+
+
+def test_an_output_is_needed(beltrami, sphere):
+    done = beltrami("compress", sphere)
+    assert (done.exit_code, "-o FILE" in done.stderr) == (2, True)
+
+
+def test_an_empty_mesh_has_no_curve(beltrami, tmp_path):
+    (tmp_path / "empty.off").write_text("OFF\n0 0 0\n")
+    done = beltrami("compress", tmp_path / "empty.off", "--curve")
+    assert (done.exit_code, "has no vertices" in done.stderr) == (1, True)

@@ -9,17 +9,19 @@ import numpy as np
 import typer
 
 from beltrami.cli.console import print_json, waiting
+from beltrami.cli.curve import tell_curve
 from beltrami.cli.options import Json, MeshFile
 from beltrami.cli.outputs import check_compressed_output
 
 CompressedOutput = Annotated[
-    Path, typer.Option("-o", "--output", metavar="FILE", help="File to write: .btm")
+    Path | None,
+    typer.Option("-o", "--output", metavar="FILE", help="File to write: .btm", show_default=False),
 ]
 
 
 def compress(
     mesh: MeshFile,
-    output: CompressedOutput,
+    output: CompressedOutput = None,
     max_error: Annotated[
         float | None,
         typer.Option(help="No vertex moves farther.", show_default=False),
@@ -37,6 +39,12 @@ def compress(
     keep_order: Annotated[
         bool, typer.Option("--keep-order", help="Keep the numbers of the vertices.")
     ] = False,
+    curve: Annotated[
+        bool,
+        typer.Option(
+            "--curve", help="Write nothing; tell size and error on finer and finer grids."
+        ),
+    ] = False,
     json: Json = False,
 ) -> None:
     """Compress a mesh: faces exactly, positions within a bound, functions exactly.
@@ -48,6 +56,11 @@ def compress(
     from beltrami.compression.contents import describe
     from beltrami.io.registry import read_mesh
 
+    if curve:
+        tell_curve(mesh, effort, json)
+        return
+    if output is None:
+        raise typer.BadParameter("name the file to write: -o FILE")
     if relative and max_error is None:
         raise typer.BadParameter("--relative belongs to --max-error")
     check_compressed_output(output)
