@@ -78,7 +78,7 @@ SECOND: tuple[Filter, ...] = tuple(
     for projected in (False, True)
     for guided in (False, True)
     for contrast in (0.1, 0.2, 0.35)
-    for rounds in (3, 12)
+    for rounds in (3, 12, 30)
 )
 
 
