@@ -98,9 +98,3 @@ def test_draco_stands_beside_where_it_is_installed(beltrami, sphere, monkeypatch
 def test_an_output_is_needed(beltrami, sphere):
     done = beltrami("compress", sphere)
     assert (done.exit_code, "-o FILE" in done.stderr) == (2, True)
-
-
-def test_an_empty_mesh_has_no_curve(beltrami, tmp_path):
-    (tmp_path / "empty.off").write_text("OFF\n0 0 0\n")
-    done = beltrami("compress", tmp_path / "empty.off", "--curve")
-    assert (done.exit_code, "has no vertices" in done.stderr) == (1, True)

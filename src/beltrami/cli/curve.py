@@ -10,7 +10,6 @@ import numpy as np
 import typer
 
 from beltrami.cli.console import print_json, waiting
-from beltrami.errors import EmptyMeshError
 
 BITS = range(6, 15)
 COLUMNS = ("bits", "bytes", "bits_per_vertex", "rms", "rms_smooth", "largest", "draco_bytes")
@@ -28,8 +27,6 @@ def tell_curve(path: Path, effort: str, json: bool) -> None:
 
     with waiting(f"compressing {path.name}") as progress:
         read = read_mesh(path)
-        if not read.n_vertices:
-            raise EmptyMeshError(f"{path} has no vertices, so there is nothing to compress")
         mesh = Mesh(read.vertices, read.topology)
         rows = []
         for done, bits in enumerate(BITS):
