@@ -111,8 +111,33 @@ def test_factorizing_solves_a_step_of_heat(tmp_path: Path) -> None:
     h = np.mean([np.linalg.norm(V[i] - V[j]) for i in range(4) for j in range(i)])
     L, B = (getattr(bt.laplacian(bt.Mesh(V, F)), name).toarray() for name in ("stiffness", "mass"))
     np.testing.assert_allclose(A, B + 100 * h**2 * L)
-    for count, make in ((3, factorizing.solving(3)), (64, factorizing.solving_64)):
+    for count, make in ((3, factorizing.solving(3)), (64, factorizing.solving(64))):
         b = factorizing.right_hand_sides(4, count)
         for one in make(tetrahedron(tmp_path))[:2]:  # the others need not be installed
             np.testing.assert_allclose(A @ one.run(one.prepare()), b, atol=1e-8)
     assert factorizing.difference(V, V + np.array([0, 0.15, 0])) == pytest.approx(0.1)
+
+
+def test_a_peer_is_timed_for_each_right_hand_side_at_its_best(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By this clock a call takes 2 s, and 1 s more for each column beyond eight."""
+    clock, columns = [0.0], []
+
+    def solve(b: np.ndarray) -> np.ndarray:
+        columns.append(b.shape[1])
+        clock[0] += 2 + max(0, b.shape[1] - 8)
+        return b
+
+    monkeypatch.setattr(time, "process_time", lambda: clock[0])
+    assert factorizing.seconds_each(solve, tetrahedron(tmp_path)) == 2 / 8
+    assert sum(columns) == 64 * len(factorizing.BATCHES)
+
+
+def test_superlu_is_not_asked_to_factorise_a_large_mesh(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    names = [one.name for one in factorizing.factorizing(tetrahedron(tmp_path))]
+    monkeypatch.setattr(factorizing, "LARGE", 4)
+    left = [one.name for one in factorizing.factorizing(tetrahedron(tmp_path))]
+    assert [name for name in names if name not in left] == ["SuperLU, as we call it"]

@@ -30,7 +30,7 @@ VERBS = {
     "smooth": (("--steps", "100000000"), ("beltrami.diffusion.smoothing", "stages")),
     "heat": (
         ("--source", "1", "--time", "1", "--steps", "100000000"),
-        ("beltrami.diffusion.heat", "stages"),
+        ("beltrami.diffusion.heat_steps", "stages"),
     ),
     "write": (("--steps", "1"), ("beltrami.io.registry", "_write")),
 }

@@ -57,13 +57,13 @@ def test_blocks_of_drawn_matrices_are_separated(A):
 
 @pytest.mark.parametrize("positions", [True, False])
 def test_the_first_cut_of_a_grid_is_a_straight_line(positions):
-    """The separator of a 20 x 60 grid is a column of 20, and halves what is left."""
+    """The separator of a 20 x 60 grid is a column of 20, which may step aside once."""
     A = grid(20, 60)
     found = dissect(*_pattern(A), _grid_positions(20, 60) if positions else None)
     last = found.order[found.starts[-2] :]
     assert len(last) <= (20 if positions else 26)
     if positions:
-        assert len(set((last % 60).tolist())) == 1
+        assert np.ptp(last % 60) <= 1
     sizes = found.starts[np.flatnonzero(found.parents == len(found.parents) - 1) + 1]
     assert len(sizes) >= 2
 

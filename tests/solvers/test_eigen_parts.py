@@ -22,6 +22,7 @@ from beltrami.solvers.polish import polish
 from beltrami.solvers.rayleigh import projected, rotate, rotation
 from beltrami.solvers.residuals import residuals
 from beltrami.solvers.sign_rule import fix_signs
+from beltrami.solvers.skinny import add_products, add_transposed_products, padded
 
 PAIR = bt.laplacian(bt.shapes.blob(620))
 FULL = bt.laplacian(bt.shapes.blob(620), mass="consistent")
@@ -90,9 +91,9 @@ def test_columns_across_panels():
     columns.subtract(W, S[:200, :7], 100)
     assert np.allclose(W, Z - Q[:, 100:300] @ S[:200, :7])
     assert np.allclose(columns.times(S, np.float64), Q @ S)
-    columns.put(120, Q[:, :20])
-    assert np.allclose(columns.transposed_times(Z, 110, 150)[10:30], Q[:, :20].T @ Z)
-    columns.put(120, Q[:, 120:140])
+    columns.replace_last(Q[:, :30])
+    assert np.allclose(columns.transposed_times(Z, 290, 330)[10:], Q[:, :30].T @ Z)
+    columns.replace_last(Q[:, 300:])
     columns.contract(S)
     assert columns.count == 11
     assert np.allclose(columns.transposed_times(Z, 0, 11), (Q @ S).T @ Z)
@@ -286,11 +287,40 @@ def test_what_cannot_be_polished_is_refused():
 
 def test_a_known_kernel_of_many_components_is_not_larger_than_needed():
     islands = csr_array(np.kron(np.eye(400), [[0.0, 1.0], [1.0, 0.0]]))
-    basis = bt.fourier_basis(bt.laplacian(islands), 3)
+    for certify in (False, True):
+        basis = bt.fourier_basis(bt.laplacian(islands), 3, certify=certify)
     assert basis.eigenvalues.tolist() == [0, 0, 0]
     assert basis.computation.method == "kernel"
-    for column in range(3):
-        assert np.flatnonzero(basis.eigenvectors[:, column]).tolist() == [
-            2 * column,
-            2 * column + 1,
-        ]
+    pairs = [np.flatnonzero(column).tolist() for column in basis.eigenvectors.T]
+    assert pairs == [[0, 1], [2, 3], [4, 5]]
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("c", [4, 8, 16, 24, 48])
+def test_tall_products(dtype, c):
+    """Panels of several widths, cut at both ends; rows that fill no tile; sums in parts."""
+    rng = np.random.default_rng(c)
+    n, widths = 1003, [1, 8, 37, 16]
+    panels = [rng.standard_normal((n, width)).astype(dtype) for width in widths]
+    where = np.array([panel.ctypes.data for panel in panels[1:]])
+    P = np.hstack(panels[1:]).astype(np.float64)[:, 3:50]
+    Z = rng.standard_normal((n, c)).astype(dtype)
+    C = np.ones((47, c), dtype)
+    add_transposed_products(where, np.array(widths[1:]), 3, 300, Z, C, np.empty_like(C))
+    close = 300 * np.finfo(dtype).eps
+    assert np.allclose(C, 1 + P.T @ Z.astype(np.float64), rtol=0, atol=100 * close)
+    D = rng.standard_normal((47, c)).astype(dtype)
+    W = Z.copy()
+    add_products(W, where, np.array(widths[1:]), 3, D)
+    assert np.allclose(W, Z + P @ D.astype(np.float64), rtol=0, atol=close)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("c", [1, 3, 8])
+def test_rows_are_padded_to_whole_vectors(dtype, c):
+    Z = np.ones((5, c), dtype)
+    wide = padded(Z)
+    assert wide.shape[1] * wide.itemsize % 16 == 0
+    assert (wide[:, :c] == 1).all()
+    assert (wide[:, c:] == 0).all()
+    assert (wide is Z) == (wide.shape == Z.shape)

@@ -10,7 +10,7 @@ from scipy.sparse.linalg import eigsh
 from scipy.spatial import Delaunay
 
 import beltrami as bt
-from beltrami.errors import BeltramiError, MeshError
+from beltrami.errors import BeltramiError, ConvergenceError, MeshError
 from beltrami.solvers import finding, slices
 from meshes_of_the_errata import MESHES
 
@@ -131,12 +131,37 @@ def test_twenty_equal_components(k):
     """A multiplicity of 20 x 3, more than a block of Lanczos can hold."""
     pair = bt.laplacian(copies(bt.shapes.icosphere(2), 20))
     one = dense(bt.laplacian(bt.shapes.icosphere(2)), 12)
-    basis = bt.fourier_basis(pair, k)
+    basis = bt.fourier_basis(pair, k, certify=k < 30)
     assert_right(basis, pair, np.repeat(one, 20)[:k])
     U = basis.eigenvectors[:, : min(k, 20)]
     assert ((abs(U) > 0).sum(axis=0) == 162).all()  # each constant lives on one component
     assert (U >= 0).all()
     assert (basis.eigenvalues[: min(k, 20)] == 0).all()
+
+
+@pytest.mark.parametrize("tol", [1e-6, 1e-8, 1e-11])
+def test_near_a_number_among_equal_components(tol):
+    """Multiplicities of 4 x 3 and more on both sides, which blocks of 8 do not hold."""
+    pair = bt.laplacian(copies(bt.shapes.icosphere(2), 4), mass="unit")
+    basis = bt.fourier_basis(pair, 33, 1.7789, tol, certify=True)
+    nearest = np.sort(abs(dense(pair, pair.n) - 1.7789))[:33]
+    assert np.allclose(np.sort(abs(basis.eigenvalues - 1.7789)), nearest, atol=1e-8)
+    assert basis.orthogonality < 1e-8
+
+
+def test_lapack_takes_over_where_lanczos_does_not_arrive(monkeypatch):
+    def refuse(*_):
+        raise ConvergenceError("no")
+
+    monkeypatch.setattr(finding, "polish", refuse)
+    pair = bt.laplacian(blob())
+    for near in (0.0, 50.0):
+        basis = bt.fourier_basis(pair, 12, near)
+        assert basis.computation.method == "dense"
+        assert_right(basis, pair, dense(pair, 12, near), 1e-9, 1e-12)
+    monkeypatch.setattr(finding, "_BEARABLE", 100)
+    with pytest.raises(ConvergenceError):
+        bt.fourier_basis(pair, 12)
 
 
 @pytest.mark.parametrize("mesh", ["blob", "sphere"])

@@ -14,21 +14,18 @@ _ROUNDS = 3  # of averaging, which breaks the ties of whole numbers of steps
 
 @kernel
 def project_on_longest_direction(x: Any, order: Any, low: int, high: int, key: Any) -> None:
-    """Write into key[t] the place of vertex order[t] along the first principal axis of its set."""
+    """Write into key[v] the place of each v in order[low:high] along the set's principal axis."""
     first, last, count = np.uint64(low), np.uint64(high), high - low
-    a0 = a1 = a2 = 0.0
+    o = order[first]  # near the others, so that squares do not cancel
+    a0 = a1 = a2 = xx = xy = xz = yy = yz = zz = 0.0
     for t in range(first, last):
         v = order[t]
-        a0 += x[v, 0]
-        a1 += x[v, 1]
-        a2 += x[v, 2]
-    a0, a1, a2 = a0 / count, a1 / count, a2 / count
-    xx = xy = xz = yy = yz = zz = 0.0
-    for t in range(first, last):
-        v = order[t]
-        p, q, r = x[v, 0] - a0, x[v, 1] - a1, x[v, 2] - a2
+        p, q, r = x[v, 0] - x[o, 0], x[v, 1] - x[o, 1], x[v, 2] - x[o, 2]
+        a0, a1, a2 = a0 + p, a1 + q, a2 + r
         xx, xy, xz = xx + p * p, xy + p * q, xz + p * r
         yy, yz, zz = yy + q * q, yz + q * r, zz + r * r
+    xx, xy, xz = xx - a0 * a0 / count, xy - a0 * a1 / count, xz - a0 * a2 / count
+    yy, yz, zz = yy - a1 * a1 / count, yz - a1 * a2 / count, zz - a2 * a2 / count
     p, q, r = 1.0, 0.9, 0.8
     for _ in range(_TURNS):
         u, v, w = xx * p + xy * q + xz * r, xy * p + yy * q + yz * r, xz * p + yz * q + zz * r
@@ -37,7 +34,7 @@ def project_on_longest_direction(x: Any, order: Any, low: int, high: int, key: A
             p, q, r = u / length, v / length, w / length
     for t in range(first, last):
         i = order[t]
-        key[t] = p * x[i, 0] + q * x[i, 1] + r * x[i, 2]
+        key[i] = p * x[i, 0] + q * x[i, 1] + r * x[i, 2]
 
 
 @kernel
@@ -80,7 +77,7 @@ def compare_steps(
     key: Any,
     value: Any,
 ) -> None:
-    """Write into key[t] how much farther order[t] is from one end of its set than from the other.
+    """Write into key[v] how much farther v in order[low:high] is from one end than from the other.
 
     The set is connected, its vertices have owner == mine, and a walk from anywhere in it stands
     in queue[low:high]. Its last vertex is one end, the other is the last of a walk from there.
@@ -96,17 +93,17 @@ def compare_steps(
         start = queue[last - one]
     for t in range(first, last):
         v = order[t]
-        value[v] = far[v] - level[v]
+        key[v] = far[v] - level[v]
         level[v] = -1
     for _ in range(_ROUNDS):
         for t in range(first, last):
             v = order[t]
-            total, count = value[v], 1
+            total, count = key[v], 1
             for q in range(indptr[v], indptr[v + one]):
                 w = np.uint64(indices[q])
                 if owner[w] == mine and w != v:
-                    total += value[w]
+                    total += key[w]
                     count += 1
-            key[t] = total / count
+            value[v] = total / count
         for t in range(first, last):
-            value[order[t]] = key[t]
+            key[order[t]] = value[order[t]]

@@ -89,7 +89,8 @@ def multiply(
     ldc: int,
 ) -> None:
     """C <- α op(A) op(B) + β C, column-major; letters and scalars by their places."""
-    b.sizes[:6] = m, n, k, lda, ldb, ldc
+    b.sizes[0], b.sizes[1], b.sizes[2] = m, n, k
+    b.sizes[3], b.sizes[4], b.sizes[5] = lda, ldb, ldc
     size, letter = b.sizes.ctypes.data, b.letters.ctypes.data
     scalar, width = b.scalars.ctypes.data, b.scalars.itemsize
     call(b.gemm, (
@@ -101,7 +102,8 @@ def multiply(
 @kernel
 def subtract_square(b: Any, n: int, k: int, A: int, lda: int, C: int, ldc: int) -> None:
     """C <- C - A A', the lower triangle; A is (n, k)."""
-    b.sizes[:4] = n, k, lda, ldc
+    b.sizes[0], b.sizes[1], b.sizes[2] = n, k, lda
+    b.sizes[3] = ldc
     size, letter = b.sizes.ctypes.data, b.letters.ctypes.data
     scalar, width = b.scalars.ctypes.data, b.scalars.itemsize
     call(b.syrk, (
@@ -114,7 +116,8 @@ def divide_right(
     b: Any, turn: int, unit: int, m: int, n: int, A: int, lda: int, B: int, ldb: int
 ) -> None:
     """B <- B op(A)⁻¹ for a lower triangle A; B is (m, n). ``unit``: N, or U for a diagonal of 1."""
-    b.sizes[:4] = m, n, lda, ldb
+    b.sizes[0], b.sizes[1], b.sizes[2] = m, n, lda
+    b.sizes[3] = ldb
     size, letter, scalar = b.sizes.ctypes.data, b.letters.ctypes.data, b.scalars.ctypes.data
     call(b.trsm, (
         letter + R, letter + L, letter + turn, letter + unit, size, size + 4, scalar,
@@ -125,7 +128,7 @@ def divide_right(
 @kernel
 def cholesky_in_place(b: Any, n: int, A: int, lda: int) -> int:
     """Overwrite A by its lower Cholesky factor; return 0, or the first column (from 1) without."""
-    b.sizes[:3] = n, lda, 0
+    b.sizes[0], b.sizes[1], b.sizes[2] = n, lda, 0
     size, letter = b.sizes.ctypes.data, b.letters.ctypes.data
     call(b.potrf, (letter + L, size, A, size + 4, size + 8))
     return int(b.sizes[2])

@@ -19,12 +19,17 @@ from beltrami.errors import NotPositiveDefiniteError, SingularMatrixError
 from beltrami.solvers.blas import blas
 from beltrami.solvers.elimination import Elimination
 from beltrami.solvers.fronts import factorize_fronts
-from beltrami.solvers.many import enter_many, leave_many, solve_many, solve_many_transposed
+from beltrami.solvers.many import (
+    enter_many,
+    leave_many,
+    lines_for,
+    solve_many,
+    solve_many_transposed,
+)
 from beltrami.solvers.one import solve_one, solve_one_transposed
 from beltrami.solvers.three import enter, leave, solve_three, solve_three_transposed
 
-FEW = 7  # up to so many right-hand sides our own loops are faster than calls of BLAS
-_BLOCK = 128  # right-hand sides that go through BLAS at a time
+_BLOCK = 64  # right-hand sides that are solved for at a time
 _ROUNDING = {"float64": 1e-12, "float32": 1e-4}  # pivots smaller than this may be zero in truth
 
 
@@ -84,19 +89,18 @@ class Cholesky:
 
     def solve(self, b: Floats) -> Floats:
         """Return x with A x = b, for (n,) or (n, c)."""
-        right = np.ascontiguousarray(b[:, None] if b.ndim == 1 else b)
-        x = np.empty(right.shape)
-        count = right.shape[1]
-        if count <= FEW:
-            threes = count - count % 3
-            for j in range(0, threes, 3):
-                self._solve_three(right, j, x)
-            for j in range(threes, count):
-                x[:, j] = self._solve_one(right[:, j])
-        else:
-            for j in range(0, count, _BLOCK):
-                self._solve_many(right, j, x)
-        return x[:, 0] if b.ndim == 1 else x
+        if b.ndim == 1 or b.shape[1] == 1:
+            return self._solve_one(b.ravel()).reshape(b.shape)
+        right, x = np.ascontiguousarray(b), np.empty(b.shape)
+        if b.shape[1] == 3:
+            self._solve_three(right, x)
+            return x
+        blocks = -(-b.shape[1] // _BLOCK)
+        width = -(-b.shape[1] // max(blocks, 1))
+        room = lines_for(len(x), width, self.values.dtype)
+        for j in range(0, b.shape[1], max(width, 1)):
+            self._solve_many(right, j, min(width, b.shape[1] - j), room, x)
+        return x
 
     @property
     def _panels(self) -> tuple[NDArray[Any], Integers, Integers, NDArray[np.int32], Integers]:
@@ -113,29 +117,33 @@ class Cholesky:
         solve_one_transposed(*self._panels, x, work)
         return x[shape.place] * self.scale
 
-    def _solve_three(self, b: Floats, j: int, result: Floats) -> None:
-        """Solve for three columns of b, from column j on, into those of the result."""
+    def _solve_three(self, b: Floats, result: Floats) -> None:
+        """Solve for (n, 3), as positions are."""
         shape = self.elimination
         x = np.empty((3, len(shape.order)), self.values.dtype)
-        enter(b, j, shape.order, self.scale, x)
+        enter(b, shape.order, self.scale, x)
         work = np.empty((3, shape.widest + shape.tallest), x.dtype)
         solve_three(*self._panels, x, work)
         if self.signs is not None:
             x *= self.signs
         solve_three_transposed(*self._panels, x, work)
-        leave(x, shape.place, self.scale, j, result)
+        leave(x, shape.place, self.scale, result)
 
-    def _solve_many(self, b: Floats, j: int, result: Floats) -> None:
-        """Solve for a block of columns of b, from column j on, into those of the result."""
+    def _solve_many(self, b: Floats, j: int, count: int, x: NDArray[Any], result: Floats) -> None:
+        """Solve for columns j to j + count of b, into those of the result; x is the room."""
         shape = self.elimination
-        x = np.empty((len(shape.order), min(_BLOCK, b.shape[1] - j)), self.values.dtype)
-        enter_many(b, j, shape.order, self.scale, x)
-        work = np.empty((shape.tallest, x.shape[1]), x.dtype)
-        solve_many(*self._panels, blas(x.dtype), x, work)
+        enter_many(b, j, count, shape.order, self.scale, x)
+        self.substitute(x)
+        leave_many(x, count, shape.place, self.scale, j, result)
+
+    def substitute(self, x: NDArray[Any]) -> None:
+        """Solve L S L' x = b in place, in the order of elimination; x is of ``lines_for``."""
+        shape = self.elimination
+        offsets = np.empty(shape.widest + shape.tallest, np.int64)
+        solve_many(*self._panels, x, offsets)
         if self.signs is not None:
             x *= self.signs[:, None]
-        solve_many_transposed(*self._panels, blas(x.dtype), x, work)
-        leave_many(x, shape.place, self.scale, j, result)
+        solve_many_transposed(*self._panels, x, offsets)
 
 
 def factorize_cholesky(

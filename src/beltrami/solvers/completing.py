@@ -27,6 +27,8 @@ def crowded(work: Work) -> bool:
 def complete(work: Work) -> None:
     """Count the eigenvalues; search for missing ones, orthogonally to those that are known."""
     pencil = work.pencil
+    if pencil.kernel_goes_on(work.k):
+        return
     if len(work.values) + pencil.kernel.shape[1] == pencil.n:
         work.counted = np.inf
         return

@@ -12,8 +12,8 @@ class Computation:
     Attributes
     ----------
     method
-        ``"dense"`` (LAPACK), ``"lanczos"``, ``"slices"`` (Lanczos in each), ``"kernel"`` (there
-        was nothing to compute), or ``"given"``.
+        ``"dense"`` (LAPACK; for n <= 2500 also where Lanczos does not arrive), ``"lanczos"``,
+        ``"slices"`` (Lanczos in each), ``"kernel"`` (nothing to compute), or ``"given"``.
     precision
         ``"float32"`` or ``"float64"`` inside; what comes out is float64, polished.
     shift
@@ -26,7 +26,7 @@ class Computation:
         The largest residual before each pass of polishing, and after the last.
     counted_within
         All eigenvalues nearer than this to where we looked are here, by count of inertia; 0 if
-        nothing was counted.
+        nothing was counted, and where the kernel alone is much larger than what was wanted.
     seconds
         Wall-clock seconds of each stage: (name, seconds).
     """

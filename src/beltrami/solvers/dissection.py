@@ -1,9 +1,10 @@
 """Nested dissection: an order of elimination that fills little (A. George, 1973).
 
-A set of vertices is cut in two halves of equal size; the vertices of one half that have
-neighbours in the other separate them and are eliminated last, after both halves have been
-treated likewise. Where positions are known a plane across the longest direction cuts; where they
-are not, the vertices as near to one end of the graph as to the other do.
+A set of vertices is cut in two; few vertices separate the sides, and are eliminated last, after
+both sides have been treated likewise. Where positions are known a plane across the longest
+direction cuts, at its thinnest place (``cutting``); where they are not, the vertices about as near
+to one end of the graph as to the other do. Then the separator is made smaller (``refinement``).
+Sets of few vertices are ordered by their degrees (``leaves``).
 """
 
 from __future__ import annotations
@@ -17,8 +18,11 @@ from numpy.typing import NDArray
 from beltrami._arrays import Floats, Integers
 from beltrami._jit import kernel, unsigned
 from beltrami.solvers.bisection import compare_steps, project_on_longest_direction, walk
+from beltrami.solvers.cutting import PLACES, cut
+from beltrami.solvers.leaves import MOST, order_leaf
+from beltrami.solvers.refinement import refine
 
-LEAF = 32  # sets of this size are not cut further
+LEAF = MOST  # sets of this size are not cut further
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,49 +70,106 @@ def dissect(
 def _dissect(indptr: Any, indices: Any, x: Any, leaf: int) -> Any:
     """Return the order, and the first unknown of each block and of its parent (-1: none)."""
     n = indptr.size - 1
-    order, key = np.arange(n).astype(np.uint64), np.empty(n)
-    owner, moved = np.full(n, -1, np.int64), np.empty(n, np.uint64)
+    order, owner, moved = (
+        np.arange(n).astype(np.uint64),
+        np.full(n, -1, np.int64),
+        np.empty(n, np.uint64),
+    )
+    key, reach, bins = np.empty(n), np.empty((n, 2)), np.empty((PLACES, 3), np.int64)
+    near, state, log, steps = (
+        np.empty((n, 2), np.int64),
+        np.zeros(n, np.int8),
+        np.empty(n, np.uint64),
+        np.empty(n, np.int64),
+    )
     walks = n if x.shape[0] == 0 else 0
     level, far, value = np.full(walks, -1, np.int64), np.empty(walks, np.int64), np.empty(walks)
-    tasks = np.empty((n, 3), np.int64)
+    slot, ends, above = np.full(n, -1, np.int64), np.empty(MOST, np.int64), np.empty(MOST, np.int64)
+    tasks, sizes = np.empty((n, 3), np.int64), np.empty(3, np.int64)
     firsts, parents = np.empty(n, np.int64), np.empty(n, np.int64)
-    tasks[0] = 0, n, -1
-    waiting, blocks, stamp = 1, 0, 0
+    tasks[0, 0], tasks[0, 1], tasks[0, 2] = 0, n, -1
+    waiting, blocks, mine = 1, 0, 0
     while waiting:
         waiting -= 1
-        low, high, parent = tasks[waiting]
-        if high - low > leaf:
-            stamp += 2
-            for t in range(low, high):
-                owner[order[t]] = stamp
-            if walks:
-                end = walk(indptr, indices, order[low], owner, stamp, level, moved, low)
-                if end < high:
-                    waiting = _part(
-                        indptr, indices, order, low, high, owner, stamp, level, moved, end,
-                        leaf, tasks, waiting, parent,
-                    )  # fmt: skip
-                    continue
-                compare_steps(
-                    indptr, indices, order, low, high, owner, stamp, level, far, moved, key, value
-                )
-            else:
-                project_on_longest_direction(x, order, low, high, key)
-            middle = (low + high) // 2
-            _select(key, order, low, high, middle)
-            left, right = _separate(indptr, indices, order, low, middle, high, owner, stamp, moved)
-            if right < high:
-                firsts[blocks], parents[blocks] = right, parent
-                blocks += 1
-                parent = right
-            for begin, end in ((left, right), (low, left)):
-                if begin < end:
-                    tasks[waiting] = begin, end, parent
-                    waiting += 1
+        low, high, parent = tasks[waiting, 0], tasks[waiting, 1], tasks[waiting, 2]
+        if high - low <= leaf:
+            count = order_leaf(indptr, indices, order, low, high, slot, ends, above)
+            begin = low
+            for k in range(count):
+                firsts[blocks + k] = begin
+                begin = low + ends[k]
+                parents[blocks + k] = parent if above[k] < 0 else low + ends[above[k] - 1]
+            blocks += count
             continue
-        firsts[blocks], parents[blocks] = low, parent
-        blocks += 1
+        mine += 3
+        for t in range(np.uint64(low), np.uint64(high)):
+            owner[order[t]] = mine
+        if walks:
+            end = walk(indptr, indices, order[low], owner, mine, level, moved, low)
+            if end < high:
+                waiting = _part(
+                    indptr, indices, order, low, high, owner, mine, level, moved, end,
+                    leaf, tasks, waiting, parent,
+                )  # fmt: skip
+                continue
+            compare_steps(
+                indptr, indices, order, low, high, owner, mine, level, far, moved, key, value
+            )
+        else:
+            project_on_longest_direction(x, order, low, high, key)
+        cut(indptr, indices, order, low, high, owner, mine, key, reach, bins)
+        _gather(order, low, high, owner, mine, sizes, moved)
+        refine(indptr, indices, owner, mine, sizes, moved, near, state, log, steps)
+        left, right = _arrange(order, low, high, owner, mine, sizes, moved)
+        if right < high:
+            firsts[blocks], parents[blocks] = right, parent
+            blocks += 1
+            parent = right
+        for begin, end in ((left, right), (low, left)):
+            if begin < end:
+                tasks[waiting, 0], tasks[waiting, 1], tasks[waiting, 2] = begin, end, parent
+                waiting += 1
     return order, firsts[:blocks], parents[:blocks]
+
+
+@kernel
+def _gather(order: Any, low: int, high: int, owner: Any, mine: int, sizes: Any, found: Any) -> None:
+    """List the separator in ``found``, and count it and its sides."""
+    sizes[0] = sizes[1] = sizes[2] = 0
+    for t in range(np.uint64(low), np.uint64(high)):
+        v = order[t]
+        at = owner[v] - mine
+        if at == 2:
+            found[sizes[2]] = v
+        sizes[at] += 1
+
+
+@kernel
+def _arrange(order: Any, low: int, high: int, owner: Any, mine: int, sizes: Any, moved: Any) -> Any:
+    """Reorder order[low:high]: the larger side, the other, the separator; return where they end.
+
+    The larger first, because its updates need more room than those that wait for it.
+    """
+    larger = 0 if sizes[0] >= sizes[1] else 1
+    left = low + sizes[larger]
+    right = left + sizes[1 - larger]
+    first, second, third = np.uint64(low), np.uint64(left), np.uint64(right)
+    for t in range(np.uint64(low), np.uint64(high)):
+        v = order[t]
+        at = owner[v] - mine
+        if at == 2:
+            owner[v] = -1
+            moved[third] = v
+            third += np.uint64(1)
+        elif at == larger:
+            moved[first] = v
+            first += np.uint64(1)
+        else:
+            moved[second] = v
+            second += np.uint64(1)
+    for t in range(np.uint64(low), np.uint64(high)):
+        order[t] = moved[t]
+    return left, right
 
 
 @kernel
@@ -136,7 +197,7 @@ def _part(
     t = low
     while True:
         if end - begin > leaf and part > begin:  # what came before this part is full
-            tasks[waiting] = begin, part, parent
+            tasks[waiting, 0], tasks[waiting, 1], tasks[waiting, 2] = begin, part, parent
             waiting += 1
             begin = part
         if end == high:
@@ -144,90 +205,8 @@ def _part(
         while level[order[t]] >= 0:
             t += 1
         part, end = end, walk(indptr, indices, order[t], owner, mine, level, moved, end)
-    tasks[waiting] = begin, high, parent
+    tasks[waiting, 0], tasks[waiting, 1], tasks[waiting, 2] = begin, high, parent
     for t in range(low, high):
         order[t] = moved[t]
         level[moved[t]] = -1
     return waiting + 1
-
-
-@kernel
-def _select(key: Any, order: Any, low: int, high: int, place: int) -> None:
-    """Reorder both arrays so that keys before the place are <= those from it on (C. Hoare)."""
-    one = np.uint64(1)
-    first, last, at = np.uint64(low), np.uint64(high - 1), np.uint64(place)
-    while first < last:
-        a, b, c = key[first], key[(first + last) // np.uint64(2)], key[last]
-        pivot = max(min(a, b), min(max(a, b), c))
-        i, j = first, last + one  # j is one more than the place it stands for: it may pass 0
-        while i < j:
-            while key[i] < pivot:
-                i += one
-            while key[j - one] > pivot:
-                j -= one
-            if i < j:
-                k = j - one
-                key[i], key[k] = key[k], key[i]
-                order[i], order[k] = order[k], order[i]
-                i += one
-                j -= one
-        if at < j:
-            last = j - one
-        elif at >= i:
-            first = i
-        else:
-            return
-
-
-@kernel
-def _separate(
-    indptr: Any,
-    indices: Any,
-    order: Any,
-    low: int,
-    middle: int,
-    high: int,
-    owner: Any,
-    mine: int,
-    moved: Any,
-) -> Any:
-    """Move the smaller of the two sides of the cut to the end of order[low:high].
-
-    Returns (left, right): the halves are order[low:left] and order[left:right], and no vertex of
-    one is a neighbour of the other.
-    """  # fmt: skip
-    for t in range(middle, high):
-        owner[order[t]] = mine + 1
-    here = _cut(indptr, indices, order, low, middle, owner, mine + 1, moved)
-    there = _cut(indptr, indices, order, middle, high, owner, mine, moved)
-    begin, end, other = (low, middle, mine + 1) if here <= there else (middle, high, mine)
-    count = _cut(indptr, indices, order, begin, end, owner, other, moved)
-    for t in range(count):
-        owner[moved[t]] = -1
-    kept = begin
-    for t in range(begin, high):
-        v = order[t]
-        if t < end and owner[v] < 0:
-            continue
-        order[kept] = v
-        kept += 1
-    for t in range(count):
-        order[kept + t] = moved[t]
-    return (middle - count if begin == low else middle), kept
-
-
-@kernel
-def _cut(
-    indptr: Any, indices: Any, order: Any, begin: int, end: int, owner: Any, other: int, found: Any
-) -> int:
-    """List the vertices of order[begin:end] that have a neighbour of another owner."""
-    count = 0
-    one = np.uint64(1)
-    for t in range(np.uint64(begin), np.uint64(end)):
-        v = order[t]
-        for q in range(indptr[v], indptr[v + one]):
-            if owner[np.uint64(indices[q])] == other:
-                found[count] = v
-                count += 1
-                break
-    return count

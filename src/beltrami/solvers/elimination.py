@@ -105,7 +105,8 @@ def _rows(
                 child = siblings[child]
             if end + min(most, needed) > rows.size:
                 larger = np.empty(2 * rows.size + min(most, needed), np.int32)
-                larger[:end] = rows[:end]
+                for t in range(end):
+                    larger[t] = rows[t]
                 rows = larger
         for t in range(first, last):
             v = order[t]
@@ -124,7 +125,9 @@ def _rows(
                     rows[end] = p
                     end += 1
             child = siblings[child]
-        rows[row_starts[i] : end] = np.sort(rows[row_starts[i] : end])
+        ascending = np.sort(rows[row_starts[i] : end])
+        for t in range(ascending.size):
+            rows[row_starts[i] + t] = ascending[t]
         row_starts[i + 1] = end
     return row_starts, rows[: row_starts[blocks]].copy()
 

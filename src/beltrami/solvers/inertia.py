@@ -38,8 +38,9 @@ def census(
 ) -> Census:
     """Count the eigenvalues that are as near to ``near`` as the k nearest of a list.
 
-    It is done in the last gap of the list, beyond the k-th or before it, that is wide beside the
-    ``doubts`` (the largest errors of the values). ``definite``: no eigenvalue is below ``near``.
+    It is done in a gap that is wide beside the ``doubts`` (the largest errors of the values): that
+    beyond the k-th, or the last one before it, or else the first one after it. ``definite``: no
+    eigenvalue is below ``near``.
 
     Raises
     ------
@@ -49,7 +50,8 @@ def census(
     order = np.argsort(np.abs(values - near), kind="stable")
     distance, doubt = np.abs(values - near)[order], doubts[order]
     distance, doubt = np.concatenate([[0.0], distance]), np.concatenate([[0.0], doubt])
-    for i in range(min(k, len(values) - 1), -1, -1):
+    last = min(k, len(values) - 1)
+    for i in (*range(last, -1, -1), *range(last + 1, len(values))):
         gap = distance[i + 1] - distance[i]
         if not gap > _CLEAR * (doubt[i + 1] + doubt[i]):
             continue

@@ -10,10 +10,9 @@ from numpy.typing import DTypeLike, NDArray
 
 from beltrami._jit import kernel
 from beltrami.errors import NotPositiveDefiniteError, SingularMatrixError
-from beltrami.solvers.blas import blas
 from beltrami.solvers.cholesky import Cholesky, factorize_cholesky
 from beltrami.solvers.ldl import factorize_ldl
-from beltrami.solvers.many import solve_many, solve_many_transposed
+from beltrami.solvers.many import lines_for
 from beltrami.solvers.pencil import Block, Pencil
 
 _SEED = 577_215_664
@@ -52,18 +51,12 @@ class Inverse:
 
     def __call__(self, b: Block) -> Block:
         """Return x with (L - σB) x = b."""
-        factor = self.factor
-        shape = factor.elimination
-        x = np.empty(b.shape, self.dtype)
+        x = lines_for(len(b), b.shape[1], self.dtype)
         _scale(b, self.scale, x)
-        work = np.empty((shape.tallest, x.shape[1]), x.dtype)
-        panels = factor.values, shape.starts, shape.row_starts, shape.rows, shape.panels
-        solve_many(*panels, blas(x.dtype), x, work)
-        if factor.signs is not None:
-            x *= factor.signs[:, None]
-        solve_many_transposed(*panels, blas(x.dtype), x, work)
-        _scale(x, self.scale, x)
-        return x
+        self.factor.substitute(x)
+        result = np.empty(b.shape, self.dtype)
+        _scale(x, self.scale, result)
+        return result
 
 
 def definite_inverse(pencil: Pencil, shift: float, dtype: DTypeLike) -> Inverse | None:
@@ -122,8 +115,11 @@ def _inverse(pencil: Pencil, shift: float, factor: Cholesky) -> Inverse:
 
 @kernel
 def _scale(b: Any, scale: Any, x: Any) -> None:
-    """Multiply row i of b by ``scale[i]``, into x."""
+    """Multiply row i of b by ``scale[i]``, into x; what x has more columns becomes zero."""
+    columns = min(b.shape[1], x.shape[1])
     for i in range(b.shape[0]):
         source, to, s = b[i], x[i], scale[i]
-        for j in range(source.size):
+        for j in range(columns):
             to[j] = source[j] * s
+        for j in range(columns, to.size):
+            to[j] = 0

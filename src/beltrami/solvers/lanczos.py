@@ -121,7 +121,7 @@ class Lanczos:
         new = np.ascontiguousarray(Z[:, b:])
         subtract_product(new, q, q.T @ self.pencil.weighed(new))
         new = orthonormalize(self.pencil, new)
-        self.basis.put(j, q)
+        self.basis.replace_last(q)
         self._choose(float(np.abs(C).max()), self._since)
         self._since = 0
         return q, new

@@ -54,6 +54,11 @@ def _most_columns(k: int, b: int) -> int:
     return _blocks(2.6 * k + 20 * b, b)
 
 
+def _first_look(k: int, b: int) -> int:
+    """Return the size of the basis at which k eigenpairs of a surface have converged, about."""
+    return _blocks(2.55 * k + 8 * b, b)
+
+
 def _block(k: int) -> int:
     return 4 if k <= 12 else 8 if k <= 80 else 16 if k < 350 else 24
 
@@ -78,7 +83,7 @@ def search(
     process = Lanczos(pencil, inverse, start, known, seed)
     solves = restarts = 0
     most = _most_columns(k, b)
-    look = min(_blocks(2.1 * k + 11 * b, b), most)
+    look = min(_first_look(k, b), most)
     while True:
         while process.size < look:
             process.extend()
@@ -92,7 +97,7 @@ def search(
                 start = process.vectors(ritz) @ mixing
                 solves += process.solves
                 inverse, process = moved, Lanczos(pencil, moved, start, known, seed)
-                look = min(_blocks(2.1 * k + 11 * b, b), most)
+                look = min(_first_look(k, b), most)
                 continue
         if worst < settings.tolerance or process.size + known.shape[1] + b > n:
             break

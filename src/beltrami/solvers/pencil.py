@@ -17,6 +17,7 @@ from beltrami.solvers.kernel_vectors import kernel_vectors
 from beltrami.solvers.ordering import as_positions, order
 
 Block = NDArray[Any]  # (n, c), float32 or float64
+SPARE = 64  # vectors of the kernel that are known beyond those wanted
 _WEYL = 3.63  # times k median(diag L) / sum(B): 4πk/area on a surface of equilateral triangles
 
 
@@ -38,7 +39,8 @@ class Pencil:
     unit
         u, the eigenvalue of (L, B) that is 1 here.
     kernel
-        (n, c) orthonormal vectors that L maps to zero, exactly known; no more than are wanted.
+        (n, c) orthonormal vectors that L maps to zero, exactly known; 64 more than are wanted at
+        most.
     matrices
         The two in the order in which they came, to be factorised.
     elimination
@@ -67,6 +69,10 @@ class Pencil:
     def bound(self) -> float:
         """Return a number that no eigenvalue exceeds (Gershgorin); infinite for a full mass."""
         return float(abs(self.stiffness).sum(axis=1).max()) if self.plain else np.inf
+
+    def kernel_goes_on(self, k: int) -> bool:
+        """Whether the kernel may have more vectors than are known: far more than k."""
+        return self.kernel.shape[1] == k + SPARE
 
     def weighed(self, X: Block) -> Block:
         """Return B X, which is X itself where the mass is the identity."""
@@ -100,7 +106,7 @@ def make_pencil(
     pattern = csc_array(csr_array(abs(scaled) + abs(mass)).T)
     positions = None if coordinates is None else as_positions(coordinates, len(root))
     shape = order(pattern, positions, order_by)
-    known = kernel_vectors(scaled, mass, root, k)[shape.order]
+    known = kernel_vectors(scaled, mass, root, k + SPARE)[shape.order]
     return Pencil(
         _permuted(scaled, shape), _permuted(mass, shape), plain, root[shape.order], unit,
         np.ascontiguousarray(known), (scaled, mass), shape,

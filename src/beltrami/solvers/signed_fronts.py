@@ -12,7 +12,7 @@ import numpy as np
 
 from beltrami._jit import kernel
 from beltrami.solvers.blas import N, T, divide_right, multiply
-from beltrami.solvers.fronts import add, enter
+from beltrami.solvers.fronts import assemble, put_away
 
 _ONE, _MINUS = 0, 1  # places of the scalars
 _WIDTH = 32  # columns that are factorised without BLAS
@@ -52,50 +52,18 @@ def factorize_signed_fronts(
     for i in range(starts.size - 1):
         first, columns = starts[i], starts[i + 1] - starts[i]
         below = row_starts[i + 1] - row_starts[i]
-        for t in range(columns):
-            local[first + t] = t
-        for t in range(below):
-            local[rows[row_starts[i] + t]] = columns + t
         panel = values[panels[i] : panels[i + 1]]
-        enter(
-            indptr,
-            indices,
-            data,
-            scale,
-            order,
-            place,
-            first,
-            columns,
-            columns + below,
-            local,
-            panel,
-        )
         update = stack[top : top + below * below]
-        update[:] = 0
-        base = top
-        child = children[i]
-        while child >= 0:
-            count = row_starts[child + 1] - row_starts[child]
-            for t in range(count):
-                target[t] = local[rows[row_starts[child] + t]]
-            at = stack_at[child]
-            square = stack[at : at + count * count]
-            add(
-                square, np.uint64(count), target, np.uint64(columns), np.uint64(below),
-                panel, update,
-            )  # fmt: skip
-            base = min(base, at)
-            child = siblings[child]
+        base = assemble(
+            indptr, indices, data, scale, order, place, starts, children, siblings, row_starts,
+            rows, stack, stack_at, local, target, i, panel, update, top,
+        )  # fmt: skip
         failed = _panel(
             panel, columns, below, signs[first : first + columns], update, b, work, smallest
         )
         if failed >= 0:
             return first + failed
-        if base < top:
-            for t in range(below * below):
-                stack[base + t] = update[t]
-        stack_at[i] = base
-        top = base + below * below
+        top = put_away(stack, stack_at, i, update, np.uint64(below), base, top)
     return -1
 
 

@@ -11,27 +11,25 @@ from beltrami.solvers.one import gather, scatter
 
 
 @kernel
-def enter(b: Any, j: int, order: Any, scale: Any, x: Any) -> None:
-    """Bring columns j, j + 1, j + 2 of b (n, c) into the order of elimination, scaled: x (3, n)."""
-    k = np.uint64(j)
+def enter(b: Any, order: Any, scale: Any, x: Any) -> None:
+    """Bring b (n, 3) into the order of elimination, scaled: x (3, n)."""
     p, q, r = x[0], x[1], x[2]
     for t in range(np.uint64(order.size)):
         i = np.uint64(order[t])
         s = scale[i]
-        p[t] = b[i, k] * s
-        q[t] = b[i, k + np.uint64(1)] * s
-        r[t] = b[i, k + np.uint64(2)] * s
+        p[t] = b[i, 0] * s
+        q[t] = b[i, 1] * s
+        r[t] = b[i, 2] * s
 
 
 @kernel
-def leave(x: Any, place: Any, scale: Any, j: int, result: Any) -> None:
-    """Bring x (3, n) back, into columns j, j + 1, j + 2 of the result (n, c)."""
-    k = np.uint64(j)
+def leave(x: Any, place: Any, scale: Any, result: Any) -> None:
+    """Bring x (3, n) back, into the result (n, 3)."""
     for i in range(np.uint64(place.size)):
         t, s = np.uint64(place[i]), scale[i]
-        result[i, k] = x[0, t] * s
-        result[i, k + np.uint64(1)] = x[1, t] * s
-        result[i, k + np.uint64(2)] = x[2, t] * s
+        result[i, 0] = x[0, t] * s
+        result[i, 1] = x[1, t] * s
+        result[i, 2] = x[2, t] * s
 
 
 @summing_kernel

@@ -82,9 +82,11 @@ def fourier_basis(
     Block Lanczos for :math:`(L - \sigma B)^{-1}B` in float32, with partial reorthogonalisation,
     and then inverse iteration by residuals in float64 (equation 3.9 with as many vectors as are
     wanted; one factorisation serves all steps). All in float64 for near > 0 or tol < 1e-9; LAPACK
-    for n <= 500. Cost on a surface: about 3.3 solves for each eigenpair and 5 n k² operations;
-    memory: 4 n (2.6 k + 160) bytes, then 16 n k. Grimes, Lewis and Simon 1994, "A shifted block
-    Lanczos algorithm".
+    for n <= 500. Cost on a surface: 5 or 6 solves for each eigenpair and about 20 n k² operations;
+    memory: at most 8 n k + 4 n (2.6 k + 500) bytes, whatever the convergence, by restarts that
+    keep the Ritz vectors. Beyond 1500 eigenpairs the spectrum is cut into slices of 400, in
+    float64, each counted by inertia; then the time grows like k. Grimes, Lewis and Simon 1994, "A
+    shifted block Lanczos algorithm for solving sparse symmetric generalized eigenproblems".
 
     Examples
     --------
