@@ -12,6 +12,7 @@ from benchmarks.rows.filtering import FILTERING
 from benchmarks.rows.geodesics import GEODESICS, GEODESICS_PREPARED
 from benchmarks.rows.intrinsic import INTRINSIC
 from benchmarks.rows.iterating import CONJUGATE_GRADIENTS
+from benchmarks.rows.mapping import HARMONIC
 from benchmarks.rows.reading import READ_OBJ, READ_OFF, READ_PLY
 from benchmarks.rows.smoothing import SMOOTHING
 from benchmarks.rows.starting import FIRST_CALL, IMPORT
@@ -33,6 +34,7 @@ ROWS: tuple[Row, ...] = (
     EIGEN_500,
     EIGEN_LARGE,
     CONJUGATE_GRADIENTS,
+    HARMONIC,
     READ_OBJ,
     READ_OFF,
     READ_PLY,

@@ -50,12 +50,14 @@ if TYPE_CHECKING:
     from beltrami.io.registry import write_mesh as write_mesh
     from beltrami.mesh import shapes as shapes
     from beltrami.mesh.convert import as_mesh as as_mesh
+    from beltrami.mesh.cut import Cut as Cut
     from beltrami.mesh.diagnose import Diagnosis as Diagnosis
     from beltrami.mesh.diagnose import diagnose as diagnose
     from beltrami.mesh.mesh import Mesh as Mesh
     from beltrami.mesh.repair import Repair as Repair
     from beltrami.mesh.repair import repair as repair
     from beltrami.mesh.topology import Topology as Topology
+    from beltrami.mesh.tree_cotree import cut_to_disk as cut_to_disk
     from beltrami.operators.areas import vertex_areas as vertex_areas
     from beltrami.operators.colouring import colouring as colouring
     from beltrami.operators.curvature import Curvature as Curvature
@@ -75,6 +77,14 @@ if TYPE_CHECKING:
     from beltrami.operators.point_cloud import PointCloud as PointCloud
     from beltrami.operators.projection import project as project
     from beltrami.operators.weights import edge_weights as edge_weights
+    from beltrami.parameterization.certificate import Certificate as Certificate
+    from beltrami.parameterization.certificate import certify as certify
+    from beltrami.parameterization.distortion import Distortion as Distortion
+    from beltrami.parameterization.distortion import distortion as distortion
+    from beltrami.parameterization.flatten import flatten as flatten
+    from beltrami.parameterization.harmonic import harmonic as harmonic
+    from beltrami.parameterization.parameterization import Parameterization as Parameterization
+    from beltrami.parameterization.parameterize import parameterize as parameterize
     from beltrami.solvers.conjugate_gradients import conjugate_gradients as conjugate_gradients
     from beltrami.solvers.factor import Factor as Factor
     from beltrami.solvers.factorize import factorize as factorize
@@ -117,12 +127,15 @@ __version__ = "0.1.0"
 
 _HOME = {
     "Atlas": "surfaces.atlas",
+    "Certificate": "parameterization.certificate",
     "Curvature": "operators.curvature",
+    "Cut": "mesh.cut",
     "Denoised": "diffusion.denoise",
     "DenoisedFunction": "diffusion.denoise_function",
     "Diagnosis": "mesh.diagnose",
     "DirectionalLight": "display.light",
     "Disk": "surfaces.domain",
+    "Distortion": "parameterization.distortion",
     "Factor": "solvers.factor",
     "FourierBasis": "spectrum.basis",
     "Frame": "spectrum.frames",
@@ -135,6 +148,7 @@ _HOME = {
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
     "NodalDomains": "spectrum.nodal_domains",
+    "Parameterization": "parameterization.parameterization",
     "ParametricSurface": "surfaces.surface",
     "PointCloud": "operators.point_cloud",
     "Rectangle": "surfaces.domain",
@@ -145,17 +159,20 @@ _HOME = {
     "Topology": "mesh.topology",
     "as_mesh": "mesh.convert",
     "ball_average_laplacian": "surfaces.ball_average",
+    "certify": "parameterization.certificate",
     "colouring": "operators.colouring",
     "compress": "compression.compress",
     "conjugate_gradients": "solvers.conjugate_gradients",
     "convolve": "grids.convolution",
     "curvature": "operators.curvature",
+    "cut_to_disk": "mesh.tree_cotree",
     "decompress": "compression.decompress",
     "denoise": "diffusion.denoise",
     "denoise_function": "diffusion.denoise_function",
     "dft": "grids.transform",
     "diagnose": "mesh.diagnose",
     "dirichlet_energy": "operators.energy",
+    "distortion": "parameterization.distortion",
     "edge_areas": "operators.edge_areas",
     "edge_derivative": "operators.differences",
     "edge_weights": "operators.weights",
@@ -164,11 +181,13 @@ _HOME = {
     "face_gradient": "operators.gradient",
     "factorize": "solvers.factorize",
     "filter": "spectrum.filtering",
+    "flatten": "parameterization.flatten",
     "fourier_basis": "spectrum.fourier_basis",
     "functional_map": "spectrum.functional_map",
     "functional_map_from_points": "spectrum.correspondence",
     "gaussian_bumps": "diffusion.bumps",
     "geodesic_distance": "geodesics.distance",
+    "harmonic": "parameterization.harmonic",
     "heat": "diffusion.heat",
     "heat_kernel_signature": "spectrum.heat_kernel",
     "idft": "grids.transform",
@@ -184,6 +203,7 @@ _HOME = {
     "meyer_frame": "spectrum.wavelets",
     "minres": "solvers.minres",
     "nodal_domains": "spectrum.nodal_domains",
+    "parameterize": "parameterization.parameterize",
     "plot_spectrum": "display.spectrum_plot",
     "poisson": "diffusion.poisson",
     "project": "operators.projection",

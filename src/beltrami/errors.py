@@ -10,31 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
-    "ApproximationError",
-    "BeltramiError",
-    "ConvergenceError",
-    "DegenerateFaceError",
-    "DimensionError",
-    "EmptyMeshError",
-    "FileFormatError",
-    "IncompatibleError",
-    "MeshError",
-    "MissingExtraError",
-    "NegativeWeightError",
-    "NonFiniteError",
-    "NotClosedError",
-    "NotDifferentiableError",
-    "NotManifoldError",
-    "NotOrientableError",
-    "NotPositiveDefiniteError",
-    "RankLossError",
-    "SingularMatrixError",
-    "StepTooLongError",
-    "SurfaceError",
-    "TruncationError",
-    "UnknownNameError",
-    "UnreferencedVertexError",
-]
+    "ApproximationError", "BeltramiError", "BoundaryCurveError", "ConvergenceError",
+    "DegenerateFaceError", "DimensionError", "EmptyMeshError", "FileFormatError",
+    "FoldedMapError", "IncompatibleError", "MeshError", "MissingExtraError",
+    "NegativeWeightError", "NonFiniteError", "NotADiskError", "NotClosedError",
+    "NotDifferentiableError", "NotManifoldError", "NotOrientableError",
+    "NotPositiveDefiniteError", "RankLossError", "SingularMatrixError", "StepTooLongError",
+    "SurfaceError", "TruncationError", "UnknownNameError", "UnreferencedVertexError",
+]  # fmt: skip
 
 _SHOWN = 5
 _LONGEST = 60
@@ -144,6 +127,18 @@ class NegativeWeightError(MeshError):
 
 class IncompatibleError(MeshError):
     """A Poisson problem without a solution; ``vertices`` has one of each component at fault."""
+
+
+class NotADiskError(MeshError):
+    """The operation needs a disk: connected, one boundary loop, no handle."""
+
+
+class FoldedMapError(MeshError):
+    """A map to the plane is not a bijection; ``faces`` are those turned over or without area."""
+
+
+class BoundaryCurveError(MeshError):
+    """A curve is not convex (``vertices``: its corners), or inner edges divide a side (E89)."""
 
 
 class SurfaceError(BeltramiError, ValueError):

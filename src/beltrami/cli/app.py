@@ -8,15 +8,18 @@ import typer
 
 from beltrami.cli.compress import compress
 from beltrami.cli.curvature import curvature
+from beltrami.cli.cut import cut
 from beltrami.cli.decompress import decompress
 from beltrami.cli.denoise import denoise
 from beltrami.cli.descriptors import descriptors
 from beltrami.cli.endings import ending_well
 from beltrami.cli.filter import filter as filter_verb
+from beltrami.cli.flatten import flatten
 from beltrami.cli.geodesics import geodesics
 from beltrami.cli.heat import heat
 from beltrami.cli.info import info
 from beltrami.cli.integrate import integrate
+from beltrami.cli.parameterize import parameterize
 from beltrami.cli.regularize import regularize
 from beltrami.cli.render import render
 from beltrami.cli.repair import repair
@@ -49,6 +52,9 @@ for verb in (
     descriptors,
     compress,
     decompress,
+    cut,
+    parameterize,
+    flatten,
     render,
     tour,
 ):

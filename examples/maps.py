@@ -1,0 +1,69 @@
+"""Figures 3.10 and 3.11: maps to the plane, by boundaries and weights; flattenings that fail.
+
+python examples/maps.py FOLDER
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import beltrami as bt
+
+MAPS = {
+    "circle, combinatorial": {"method": "tutte", "weights": "combinatorial"},
+    "circle, mean value": {"method": "tutte", "weights": "mean_value"},
+    "square, cotangent": {"method": "tutte", "weights": "cotangent", "boundary": "square"},
+    "circle, reweighted": {},
+    "free boundary": {"method": "free"},
+}
+
+
+def sheet(height, center=(0.0, 0.0), rings=14):
+    """Make a disk with a bump as high as that."""
+    flat = bt.shapes.disk(rings)
+    z = height * np.exp(-6 * ((flat.vertices - center) ** 2).sum(axis=1))
+    return bt.Mesh(np.column_stack([flat.vertices, z]), flat.faces)
+
+
+def draw(maps, names, path):
+    """Draw the images of the surface, wires and all."""
+    return bt.render(
+        [psi.flat for psi in maps], None, path,
+        wireframe=True, caption=names, size=(300, 320), columns=len(maps),
+    )  # fmt: skip
+
+
+def parameterizations(mesh):
+    """Return the maps of figure 3.10.
+
+    Chapter items: F3.10.
+    """
+    return [bt.parameterize(mesh, bulge=0.02, strict=False, **options) for options in MAPS.values()]
+
+
+def flattenings():
+    """Return those of figure 3.11: a low bump, a higher one, one that is too high.
+
+    Chapter items: F3.11.
+    """
+    return [bt.flatten(sheet(height, (0.35, 0.15))) for height in (0.4, 1.5, 3.0)]
+
+
+def main(folder):
+    """Draw both figures; return the numbers of flipped faces."""
+    place = Path(folder)
+    maps = parameterizations(sheet(2.0))
+    names = [
+        f"{name}: {psi.distortion.symmetric_dirichlet:.2f}"
+        for name, psi in zip(MAPS, maps, strict=True)
+    ]
+    draw(maps, names, place / "parameterizations.png")
+    flat = flattenings()
+    titles = [f"{len(psi.flipped)} of {psi.mesh.n_faces} faces flipped" for psi in flat]
+    draw(flat, titles, place / "flattenings.png")
+    return [len(psi.flipped) for psi in maps], [len(psi.flipped) for psi in flat]
+
+
+if __name__ == "__main__":
+    print("flipped faces:", *main(sys.argv[1]))
