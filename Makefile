@@ -22,7 +22,7 @@ test: $(VENV)/.installed  ## lint, types, import rule and every unmarked test
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n auto
 
 test-heavy: $(VENV)/.installed  ## fuzzing at length, millions of vertices
 	$(BIN)/python -m pytest -m heavy

@@ -8,6 +8,7 @@ from typing import Any
 
 DISTRIBUTIONS = (
     "beltrami",
+    "DracoPy",
     "cholespy",
     "gpytoolbox",
     "lapy",

@@ -20,6 +20,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from beltrami import errors as errors
+    from beltrami.compression.compress import compress as compress
+    from beltrami.compression.compress import vertex_order as vertex_order
+    from beltrami.compression.decompress import decompress as decompress
     from beltrami.diffusion.bumps import gaussian_bumps as gaussian_bumps
     from beltrami.diffusion.denoise import Denoised as Denoised
     from beltrami.diffusion.denoise import denoise as denoise
@@ -158,10 +161,12 @@ _HOME = {
     "ball_average_laplacian": "surfaces.ball_average",
     "certify": "parameterization.certificate",
     "colouring": "operators.colouring",
+    "compress": "compression.compress",
     "conjugate_gradients": "solvers.conjugate_gradients",
     "convolve": "grids.convolution",
     "curvature": "operators.curvature",
     "cut_to_disk": "mesh.tree_cotree",
+    "decompress": "compression.decompress",
     "denoise": "diffusion.denoise",
     "denoise_function": "diffusion.denoise_function",
     "dft": "grids.transform",
@@ -214,6 +219,7 @@ _HOME = {
     "spectral_distance": "spectrum.distances",
     "spectral_embedding": "spectrum.distances",
     "vertex_areas": "operators.areas",
+    "vertex_order": "compression.compress",
     "wave": "diffusion.wave",
     "wave_kernel_signature": "spectrum.wave_kernel",
     "write_mesh": "io.registry",

@@ -4,6 +4,7 @@ from PIL import Image
 
 from beltrami.cli.chapters.averaging import averaging
 from beltrami.cli.chapters.chapter import Stage
+from beltrami.cli.chapters.compression import compression
 from beltrami.cli.chapters.files import files
 from beltrami.cli.chapters.geodesics import geodesics
 from beltrami.cli.chapters.grid import grid as flat_grid
@@ -11,6 +12,8 @@ from beltrami.cli.chapters.heat import heat
 from beltrami.cli.chapters.operators import operators
 from beltrami.cli.chapters.spectrum import spectrum
 from beltrami.cli.chapters.surface import surface
+from beltrami.compression.compress import vertex_order
+from beltrami.compression.decompress import decompress
 from beltrami.io.registry import read_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import grid, icosphere
@@ -33,7 +36,7 @@ MESHES = {
         np.concatenate([TETRAHEDRON_FACES, np.add(TETRAHEDRON_FACES, 4)]),
     ),
 }
-CHAPTERS = (surface, operators, averaging, flat_grid, heat, spectrum, geodesics, files)
+CHAPTERS = (surface, operators, averaging, flat_grid, heat, spectrum, compression, geodesics, files)
 
 
 def stage(mesh, folder):
@@ -48,6 +51,17 @@ def test_each_chapter_plays_on_each_mesh(act, mesh, tmp_path):
     assert not {"nan", "inf", "None"} & {cell for row in chapter.rows for cell in row}
     named = {figure.name for figure in chapter.figures} | {name for name, _ in chapter.files}
     assert named == {path.name for path in tmp_path.iterdir()}
+
+
+def test_compression_tells_what_the_files_hold(tmp_path):
+    chapter = compression(stage(MESHES["closed"], tmp_path))
+    sizes = [int(row[1]) for row in chapter.rows[1:]]
+    assert sizes == sorted(sizes)
+    errors = [float(row[3]) for row in chapter.rows[1:]]
+    assert errors == sorted(errors, reverse=True)
+    back = decompress(tmp_path / "mesh.btm")
+    off = back.vertices - MESHES["closed"].vertices[vertex_order(MESHES["closed"])]
+    assert np.linalg.norm(off, axis=1).max() <= 1e-4 * np.linalg.norm([2, 2, 2])
 
 
 def test_heat_tells_the_numbers_of_its_states(tmp_path):

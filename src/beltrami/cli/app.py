@@ -6,8 +6,10 @@ from typing import Annotated
 
 import typer
 
+from beltrami.cli.compress import compress
 from beltrami.cli.curvature import curvature
 from beltrami.cli.cut import cut
+from beltrami.cli.decompress import decompress
 from beltrami.cli.denoise import denoise
 from beltrami.cli.descriptors import descriptors
 from beltrami.cli.endings import ending_well
@@ -48,6 +50,8 @@ for verb in (
     integrate,
     spectrum,
     descriptors,
+    compress,
+    decompress,
     cut,
     parameterize,
     flatten,

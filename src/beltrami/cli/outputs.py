@@ -64,6 +64,14 @@ def check_frames_output(path: Path) -> str:
     return check_name("format for frames (a folder has no suffix)", suffix, (".npy", *ANIMATED))
 
 
+def check_compressed_output(path: Path) -> None:
+    """Raise now what writing a compressed mesh to ``path`` would raise after the work."""
+    from beltrami.errors import check_name
+
+    _check_place(path)
+    check_name("format for compressed meshes", path.suffix.lower(), (".btm",))
+
+
 def check_basis_output(path: Path) -> None:
     """Raise now what writing a basis to ``path`` would raise after the work."""
     from beltrami.errors import check_name

@@ -74,6 +74,7 @@ def _play(stage: Stage) -> list[Chapter]:
     """Run the chapters; one that cannot be run on this mesh says why, and the others go on."""
     from beltrami.cli.chapters.averaging import averaging
     from beltrami.cli.chapters.chapter import Chapter
+    from beltrami.cli.chapters.compression import compression
     from beltrami.cli.chapters.files import files
     from beltrami.cli.chapters.geodesics import geodesics
     from beltrami.cli.chapters.grid import grid
@@ -83,7 +84,7 @@ def _play(stage: Stage) -> list[Chapter]:
     from beltrami.cli.chapters.surface import surface
 
     acts: tuple[Callable[[Stage], Chapter], ...] = (
-        surface, operators, averaging, grid, heat, spectrum, geodesics, files
+        surface, operators, averaging, grid, heat, spectrum, compression, geodesics, files
     )  # fmt: skip
     played = []
     with waiting("touring") as progress:

@@ -23,6 +23,12 @@ from beltrami.parameterization.reweighting import Step, assess, reweighted
 
 METHODS = ("auto", "tutte", "free")
 _STEPS = 30  # of reweighting, at most
+_DEFAULTS: dict[str, tuple[str, ...]] = {
+    "auto": ("clamped", "mean_value", "combinatorial"),
+    "tutte": ("mean_value",),
+    "free": ("clamped", "mean_value", "combinatorial"),
+}
+_BAD = 50.0  # symmetric Dirichlet energy above which other weights are tried
 _RELAXATIONS = 50  # steps of it, at most
 _RESCUES = 8  # seams to be tried where a map folds
 _WORTH = 0.95  # a seam is kept if it lowers the distortion to this part
@@ -33,7 +39,7 @@ class _Request:
     """What was asked for, to map each component alike."""
 
     method: str
-    weights: str | Weigher
+    weights: tuple[str | Weigher, ...]  # the next ones only where those before give a bad map
     boundary: Curve
     spacing: str
     corners: ArrayLike | None
@@ -75,7 +81,9 @@ def parameterize(
     weights
         ``"combinatorial"``, ``"distance"``, ``"mean_value"``, ``"clamped"`` or a callable: all
         positive. ``"cotangent"`` is negative where two angles add to more than π, and may fold
-        (E90). By default ``"mean_value"`` for the method ``"tutte"``, else ``"clamped"``.
+        (E90). By default ``"mean_value"`` for the method ``"tutte"``; else ``"clamped"``, and
+        where that folds or has an energy above 50 the best of it, ``"mean_value"`` and
+        ``"combinatorial"``.
     boundary
         ``"circle"``, ``"square"``, a number of sides or the corners of a convex polygon: see
         ``place_boundary``.
@@ -131,8 +139,8 @@ def parameterize(
         refuse_unreferenced(mesh.topology)
     if seams < 0:
         raise MeshError(f"the number of seams cannot be {seams}")
-    kind = weights if weights is not None else "mean_value" if method == "tutte" else "clamped"
-    asked = _Request(method, kind, boundary, spacing, corners, bulge)
+    kinds: tuple[str | Weigher, ...] = (weights,) if weights is not None else _DEFAULTS[method]
+    asked = _Request(method, kinds, boundary, spacing, corners, bulge)
     current = cut_to_disk(mesh) if cut else _as_it_is(mesh)
     labels = current.mesh.components()
     uv = np.zeros((current.mesh.n_vertices, 2))
@@ -140,8 +148,9 @@ def parameterize(
         faces = labels == component
         current, uv = _mapped(current, uv, faces, asked, seams if cut else 0, rescue=cut)
     uv = side_by_side(current.mesh, uv, labels)
-    how = {"auto": "reweighted", "tutte": "Tutte,", "free": "free boundary, from reweighted"}
-    words = f"{how[method]} {kind if isinstance(kind, str) else 'given'} weights"
+    how = {"auto": "reweighted from", "tutte": "Tutte,", "free": "free boundary, from"}
+    named = "default" if weights is None else weights if isinstance(weights, str) else "given"
+    words = f"{how[method]} {named} weights"
     return certified(mesh, current, uv, words, strict=strict)
 
 
@@ -200,10 +209,16 @@ def _solved(part: Mesh, number: Integers, asked: _Request) -> Step:
     )
     if not (isinstance(asked.boundary, str) and asked.boundary == "circle"):
         refuse_dividing_edges(part, loop, placed)
-    W = edge_weights(part, asked.weights)
-    if asked.method == "tutte":
-        return assess(part, solve_harmonic(W, loop, placed, part.vertices))
-    return reweighted(part, W, loop, placed, _STEPS)[0]
+    steps: list[Step] = []
+    for kind in asked.weights:
+        W = edge_weights(part, kind)
+        if asked.method == "tutte":
+            steps.append(assess(part, solve_harmonic(W, loop, placed, part.vertices)))
+        else:
+            steps.append(reweighted(part, W, loop, placed, _STEPS)[0])
+        if steps[-1].rank <= (0, _BAD):
+            break
+    return min(steps, key=lambda step: step.rank)
 
 
 def _seams(part: Mesh, step: Step) -> list[Integers]:

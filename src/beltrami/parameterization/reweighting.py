@@ -16,6 +16,7 @@ from beltrami.parameterization.predicates import orientation
 
 _PATIENCE = 3  # steps without a better map before the exponent is halved
 _LEAST_EXPONENT = 0.1  # of the stretch: below it, the map is as good as it gets
+_FARTHEST = 250.0  # of their sums over the steps: weights neither overflow nor vanish
 _LARGEST = np.log(1e6)  # of the logarithms of stretches, about their median
 
 
@@ -70,7 +71,7 @@ def reweighted(
             exponent /= 2
         start, change = here if exponent == 1 else kept
         total = start + exponent * change
-        total -= total.mean()
+        total = np.clip(total - total.mean(), -_FARTHEST, _FARTHEST)
     if best is None:
         raise MeshError("no step of reweighting was allowed")
     return best, done

@@ -1,0 +1,103 @@
+"""The container: a magic number, a version, features, sections with lengths and checksums."""
+
+from __future__ import annotations
+
+import os
+import zlib
+from dataclasses import dataclass
+
+from beltrami.compression.varint import Reader, to_varints
+from beltrami.io.source import load
+
+MAGIC = b"\x89BTM"
+VERSION = 1
+
+# Sections, in the order of the file; each at most once, but for data.
+CONNECTIVITY, GRID, ORDER, DATA, UV = range(1, 6)
+NAMES = {
+    CONNECTIVITY: "connectivity",
+    GRID: "positions on a grid",
+    ORDER: "order of the vertices",
+    DATA: "functions",
+    UV: "texture coordinates",
+}
+
+# Features that a reader must know; a bit of the sixth byte each.
+FEATURES = {1: "the order of the vertices is kept"}
+KEEPS_ORDER = 1
+
+
+@dataclass(frozen=True)
+class Section:
+    """A section: its kind, its bytes, and where these begin in the file."""
+
+    kind: int
+    payload: bytes
+    start: int = 0
+
+    def reader(self, path: object) -> Reader:
+        """Read its bytes."""
+        return Reader(self.payload, path, self.start)
+
+
+def bytes_of(source: bytes | str | os.PathLike[str]) -> tuple[bytes, object]:
+    """Return (bytes, name for errors) of a file, or of bytes themselves."""
+    if isinstance(source, bytes | bytearray | memoryview):
+        return bytes(source), "<bytes>"
+    return load(source).data.tobytes(), source
+
+
+def pack(features: int, sections: list[Section]) -> bytes:
+    """Put sections together; each has the checksum of all bytes before it.
+
+    Examples
+    --------
+    >>> data = pack(0, [Section(GRID, b"abc")])
+    >>> data[:7].hex(), len(data), unpack(data, "a.btm")[1][0].payload
+    ('8942544d010001', 16, b'abc')
+    """
+    data = MAGIC + bytes([VERSION, features]) + to_varints([len(sections)])
+    for section in sections:
+        data += to_varints([section.kind, len(section.payload)]) + section.payload
+        data += zlib.crc32(data).to_bytes(4, "little")
+    return data
+
+
+def unpack(data: bytes, path: object) -> tuple[int, list[Section]]:
+    """Return the features and the sections of a file, after all checks.
+
+    Raises
+    ------
+    FileFormatError
+        If these are not the bytes of a whole file of a version and with features known here.
+    """
+    reader = Reader(data, path)
+    if data[:4] != MAGIC:
+        raise reader.fault("not a .btm file: it does not begin with 89 42 54 4d")
+    reader.take(4)
+    version, features = reader.take(1)[0], reader.take(1)[0]
+    if version != VERSION:
+        raise reader.fault(f"version {version} of the format; this reads version {VERSION}")
+    unknown = features & ~sum(FEATURES)
+    if unknown:
+        raise reader.fault(f"features {unknown:#04x} of a later beltrami, unknown here")
+    sections = [_section(reader) for _ in range(reader.varint(1 << 16, "sections"))]
+    if reader.position != len(data):
+        raise reader.fault(f"{len(data) - reader.position} bytes after the last section")
+    kinds = [section.kind for section in sections]
+    if kinds != sorted(kinds) or any(kinds.count(k) > 1 for k in NAMES if k != DATA):
+        raise reader.fault("the sections are in a wrong order, or one is there twice")
+    return features, sections
+
+
+def _section(reader: Reader) -> Section:
+    kind = reader.varint()
+    if kind not in NAMES:
+        raise reader.fault(f"a section of the kind {kind}, unknown here")
+    length = reader.varint()
+    start = reader.position
+    payload = reader.take(length)
+    checksum = zlib.crc32(reader.data[: reader.position])
+    if int.from_bytes(reader.take(4), "little") != checksum:
+        raise reader.fault(f"the checksum of the section {NAMES[kind]!r} is wrong")
+    return Section(kind, payload, start)

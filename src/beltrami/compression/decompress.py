@@ -1,0 +1,110 @@
+"""decompress: bytes that may be anything, and the mesh that they describe."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beltrami._arrays import Floats, Integers
+from beltrami._progress import Progress
+from beltrami.compression.connectivity import decode_connectivity
+from beltrami.compression.container import (
+    CONNECTIVITY,
+    DATA,
+    GRID,
+    KEEPS_ORDER,
+    ORDER,
+    UV,
+    Section,
+    bytes_of,
+    unpack,
+)
+from beltrami.compression.functions import decode_array
+from beltrami.compression.geometry import decode_positions
+from beltrami.compression.ordering import decode_order
+from beltrami.compression.varint import Reader
+from beltrami.errors import FileFormatError
+from beltrami.mesh.mesh import Mesh
+
+MAX_VERTICES = 10_000_000
+
+
+def decompress(
+    source: bytes | str | os.PathLike[str],
+    max_vertices: int = MAX_VERTICES,
+    progress: Progress | None = None,
+) -> Mesh:
+    """Read a compressed mesh; the same bytes give the same bits on every machine.
+
+    Parameters
+    ----------
+    source
+        The bytes that ``compress`` returned, or the name of a file of them.
+    max_vertices
+        Refuse files that declare more: bounds time and memory where bytes cannot be trusted.
+    progress
+        Called with (vertices decoded, n).
+
+    Raises
+    ------
+    FileFormatError
+        If these are not the bytes of such a file; it says at which byte.
+
+    Notes
+    -----
+    Time and memory are proportional to the numbers of vertices and faces that the file declares.
+
+    Examples
+    --------
+    >>> from beltrami.compression.compress import compress
+    >>> from beltrami.mesh.shapes import icosphere
+    >>> decompress(compress(icosphere(1), bits=10))
+    <Mesh: 42 vertices in R³, 80 faces>
+    """
+    data, path = bytes_of(source)
+    features, sections = unpack(data, path)
+    faces, n = decode_connectivity(_the(CONNECTIVITY, sections, path), max_vertices)
+    x = decode_positions(_the(GRID, sections, path), faces, n, progress)
+    functions: dict[str, NDArray[Any]] = {}
+    uv: Floats | None = None
+    for section in sections:
+        if section.kind == DATA:
+            name, values = decode_array(section.reader(path), n)
+            if name in functions:
+                raise FileFormatError(path, f"two functions of the name {name!r}")
+            functions[name] = values
+        elif section.kind == UV:
+            uv = _checked_uv(section.reader(path), len(faces))
+    if bool(features & KEEPS_ORDER) != any(section.kind == ORDER for section in sections):
+        raise FileFormatError(path, "the order of the vertices is announced and not there")
+    if features & KEEPS_ORDER:
+        order = decode_order(_the(ORDER, sections, path), n)
+        faces = order[faces]
+        x = _sorted_back(x, order)
+        functions = {name: _sorted_back(values, order) for name, values in functions.items()}
+    return Mesh(x, faces, functions, uv)
+
+
+def _the(kind: int, sections: list[Section], path: object) -> Reader:
+    """Return the reader of the section of this kind."""
+    for section in sections:
+        if section.kind == kind:
+            return section.reader(path)
+    raise FileFormatError(path, f"there is no section of the kind {kind}")
+
+
+def _checked_uv(reader: Reader, m: int) -> Floats:
+    _, values = decode_array(reader, m)
+    if values.shape != (m, 6) or values.dtype != np.float64:
+        raise reader.fault("texture coordinates of a wrong shape")
+    return values.reshape(m, 3, 2)
+
+
+def _sorted_back(values: NDArray[Any], order: Integers) -> NDArray[Any]:
+    """Give row i of ``values`` the number order[i]."""
+    result = np.empty_like(values)
+    result[order] = values
+    return result

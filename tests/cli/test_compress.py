@@ -1,0 +1,100 @@
+import json
+import sys
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import beltrami as bt
+from beltrami.io.registry import read_mesh
+
+
+def test_there_and_back(beltrami, sphere, tmp_path):
+    small, back = tmp_path / "a.btm", tmp_path / "b.ply"
+    done = beltrami("compress", sphere, "-o", small, "--max-error", 0.01, "--keep-order")
+    assert done.exit_code == 0, done.stderr
+    assert f"{small.stat().st_size} bytes" in done.stdout
+    assert "error at most 0.01" in done.stdout
+    done = beltrami("decompress", small, "-o", back)
+    assert done.exit_code == 0, done.stderr
+    mesh = read_mesh(sphere)
+    off = np.linalg.norm(read_mesh(back).vertices - mesh.vertices, axis=1)
+    assert 0 < off.max() <= 0.01
+    assert small.read_bytes() == bt.compress(mesh, max_error=0.01, keep_order=True)
+
+
+def test_a_relative_error_is_a_part_of_the_diagonal(beltrami, sphere, tmp_path):
+    small = tmp_path / "a.btm"
+    done = beltrami("compress", sphere, "-o", small, "--max-error", 0.01, "--relative", "--json")
+    facts = json.loads(done.stdout)
+    diagonal = np.linalg.norm(np.ptp(read_mesh(sphere).vertices, axis=0))
+    assert facts["max_error"] == pytest.approx(0.01 * diagonal, rel=1e-5)
+    assert facts["original_size"] == sphere.stat().st_size
+
+
+def test_info_tells_the_sections(beltrami, sphere, tmp_path):
+    small = tmp_path / "a.btm"
+    beltrami("compress", sphere, "-o", small, "--bits", 9, "--effort", "fast", "--keep-order")
+    told = beltrami("info", small).stdout
+    assert "162 vertices in 3 dimensions" in told
+    assert "effort fast" in told
+    assert "connectivity: " in told
+    assert "the order of the vertices is kept" in told
+    facts = json.loads(beltrami("info", small, "--json").stdout)
+    sections = sum(section["bytes"] for section in facts["sections"])
+    assert facts["size"] == small.stat().st_size == sections + 7
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "text"),
+    [
+        (("--relative",), 2, "--relative belongs to --max-error"),
+        (("--mode", "spectral"), 1, "choose one of 'auto', 'grid', 'smooth'"),
+        (("--effort", "bset"), 1, "Did you mean 'best'?"),
+        (("--bits", 40), 1, "bits must be 1 to 30, not 40"),
+    ],
+)
+def test_what_cannot_be_is_refused(beltrami, sphere, tmp_path, arguments, code, text):
+    output = tmp_path / "a.btm"
+    done = beltrami("compress", sphere, "-o", output, *arguments)
+    assert done.exit_code == code
+    assert text in done.stderr
+    assert not output.exists()
+
+
+def test_other_files_are_refused(beltrami, sphere, tmp_path):
+    done = beltrami("compress", sphere, "-o", tmp_path / "a.zip")
+    assert (done.exit_code, "'.btm'" in done.stderr) == (1, True)
+    done = beltrami("decompress", sphere, "-o", tmp_path / "b.ply")
+    assert (done.exit_code, "not a .btm file" in done.stderr) == (1, True)
+    wrong = tmp_path / "a.btm"
+    wrong.write_bytes(sphere.read_bytes())
+    assert "not a .btm file" in beltrami("info", wrong).stderr
+
+
+def test_the_curve_has_more_bytes_and_less_error(beltrami, sphere, tmp_path):
+    done = beltrami("compress", sphere, "--curve", "--effort", "fast", "--json")
+    assert done.exit_code == 0, done.stderr
+    rows = json.loads(done.stdout)
+    sizes, errors = [row["bytes"] for row in rows], [row["rms"] for row in rows]
+    assert [row["bits"] for row in rows] == list(range(6, 15))
+    assert sizes == sorted(sizes)
+    assert errors == sorted(errors, reverse=True)
+    assert all(row["rms_smooth"] <= row["rms"] < row["largest"] for row in rows)
+    told = beltrami("compress", sphere, "--curve", "--effort", "fast").stdout.splitlines()
+    assert len(told) == 10
+    assert told[1].split()[:2] == ["6", str(sizes[0])]
+
+
+def test_draco_stands_beside_where_it_is_installed(beltrami, sphere, monkeypatch):
+    fake = SimpleNamespace(
+        encode=lambda *_, compression_level, **__: bytes(100 * compression_level)
+    )
+    monkeypatch.setitem(sys.modules, "DracoPy", fake)
+    done = beltrami("compress", sphere, "--curve", "--effort", "fast", "--json")
+    assert {row["draco_bytes"] for row in json.loads(done.stdout)} == {500}
+
+
+def test_an_output_is_needed(beltrami, sphere):
+    done = beltrami("compress", sphere)
+    assert (done.exit_code, "-o FILE" in done.stderr) == (2, True)

@@ -1,0 +1,115 @@
+"""Bytes that nobody wrote: a mesh, or FileFormatError, and never anything else."""
+
+import zlib
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import beltrami as bt
+from beltrami.compression.contents import describe
+from beltrami.compression.varint import Reader
+from beltrami.errors import FileFormatError
+from beltrami.mesh.mesh import Mesh
+
+LIMIT = 3000
+
+
+def files():
+    """Small files with everything in them."""
+    cylinder = bt.shapes.cylinder(8, 4)
+    rng = np.random.default_rng(0)
+    full = Mesh(
+        cylinder.vertices,
+        np.concatenate([cylinder.faces, cylinder.faces[:3], [[0, 0, 1], [2, 4, 9]]]),
+        {"f": rng.normal(size=cylinder.n_vertices)},
+        rng.normal(size=(cylinder.n_faces + 5, 3, 2)),
+    )
+    plane = bt.shapes.disk(3)
+    return [
+        bt.compress(full, keep_order=True, bits=9),
+        bt.compress(full, max_error=1e-3, effort="fast"),
+        bt.compress(Mesh(plane.vertices, plane.faces[:, [0, 2, 1]]), bits=5),
+        bt.compress(Mesh(np.zeros((0, 3)), np.zeros((0, 3), int))),
+    ]
+
+
+FILES = files()
+
+
+def with_checksums(data):
+    """Make the checksums right again, as far as the sections can be followed."""
+    data = bytearray(data)
+    reader = Reader(bytes(data), "x")
+    try:
+        reader.take(6)
+        for _ in range(reader.varint()):
+            reader.varint()
+            reader.take(reader.varint())
+            end = reader.position
+            data[end : end + 4] = zlib.crc32(data[:end]).to_bytes(4, "little")
+            reader.data = bytes(data)
+            reader.take(4)
+    except FileFormatError:
+        pass
+    return bytes(data)
+
+
+def attempt(data):
+    for read, options in ((bt.decompress, {"max_vertices": LIMIT}), (describe, {})):
+        try:
+            result = read(data, **options)
+        except FileFormatError:
+            continue
+        if isinstance(result, Mesh):
+            assert result.n_vertices <= LIMIT
+            assert np.isfinite(result.vertices).all()
+            assert Mesh(result.vertices, result.faces).n_faces == result.n_faces
+
+
+def mutated(rng, data):
+    """Change some bytes, cut or repeat a piece; mostly with right checksums."""
+    data = bytearray(data)
+    for _ in range(int(rng.integers(1, 6))):
+        i = int(rng.integers(len(data)))
+        kind = int(rng.integers(6))
+        if kind < 3:
+            data[i] = int(rng.integers(256))
+        elif kind == 3:
+            data[i] ^= 1 << int(rng.integers(8))
+        elif kind == 4:
+            del data[i : i + int(rng.integers(1, 9))]
+        else:
+            data[i:i] = data[i : i + int(rng.integers(1, 9))]
+        if not data:
+            data = bytearray(b"\0")
+    return with_checksums(data) if rng.random() < 0.9 else bytes(data)
+
+
+@given(st.integers(0, 2**63 - 1), st.sampled_from(FILES))
+@settings(max_examples=400)
+def test_mutated_files(seed, data):
+    attempt(mutated(np.random.default_rng(seed), data))
+
+
+@given(st.binary(max_size=200))
+def test_noise(noise):
+    attempt(noise)
+    attempt(FILES[0][:6] + noise)
+
+
+@pytest.mark.heavy
+def test_a_hundred_thousand_mutated_files():
+    rng = np.random.default_rng()
+    for k in range(100_000):
+        attempt(mutated(rng, FILES[k % len(FILES)]))
+
+
+def test_a_small_file_cannot_declare_more_than_is_allowed():
+    data = bytearray(FILES[2])
+    assert describe(bytes(data)).n_vertices == 37
+    for declared in (b"\xff\xff\xff\x7f", b"\xff\xff\xff\xff\xff\xff\xff\x7f"):
+        head = data[:8] + bytes([data[8] + len(declared) - 1]) + declared + data[10:]
+        with pytest.raises(FileFormatError, match="max_vertices can be raised"):
+            bt.decompress(with_checksums(head))
