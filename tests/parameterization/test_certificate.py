@@ -36,6 +36,7 @@ def test_a_disk_passes_and_every_kind_of_damage_is_told():
     mesh = grid(6, 5)
     x = mesh.vertices[:, :2].copy()
     assert certify(mesh.topology, x).is_bijective
+    assert certify(mesh, x).is_bijective
     mirrored = certify(mesh.topology, x * [-1, 1])
     assert len(mirrored.flipped) == mesh.n_faces
     assert len(mirrored.turned_loops) == 1
@@ -122,5 +123,7 @@ def test_bad_input():
     with pytest.raises(NonFiniteError) as caught:
         certify(square, [[0, 0], [1, np.nan], [1, 1], [0, 1]])
     assert caught.value.vertices.tolist() == [1]
+    with pytest.raises(DimensionError, match="Topology is needed"):
+        certify([[0, 1, 2]], np.zeros((3, 2)))
     with pytest.raises(EmptyMeshError):
         certify(Topology(np.zeros((0, 3), int), 0), np.zeros((0, 2)))

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from beltrami.errors import (
     BoundaryCurveError,
     DegenerateFaceError,
+    DimensionError,
     EmptyMeshError,
     FoldedMapError,
     MeshError,
@@ -20,7 +21,9 @@ from beltrami.errors import (
 from beltrami.io.registry import read_mesh, write_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import blob, cylinder, disk, icosphere, tetrahedron, torus
+from beltrami.mesh.tree_cotree import cut_to_disk
 from beltrami.parameterization.certificate import certify
+from beltrami.parameterization.flatten import flatten
 from beltrami.parameterization.parameterize import parameterize
 from meshes_of_the_errata import bad, cur, flipped
 from strategies import arrays, hull, moebius, ring_torus, sheet
@@ -213,5 +216,8 @@ def test_bad_input():
         parameterize(sphere, boundary="circel")
     with pytest.raises(BoundaryCurveError):
         parameterize(disk(2), boundary=[[0, 0], [1, 0], [0.4, 0.4], [0, 1]])
+    for function in (parameterize, flatten, cut_to_disk):
+        with pytest.raises(DimensionError, match="a Mesh is needed"):
+            function((sphere.vertices, sphere.faces))
     with pytest.raises(MeshError, match="seams"):
         parameterize(sphere, seams=-1)

@@ -11,11 +11,12 @@ from beltrami._jit import kernel
 from beltrami.errors import (
     DegenerateFaceError,
     EmptyMeshError,
-    NotOrientableError,
     UnreferencedVertexError,
 )
 from beltrami.mesh.cut import Cut, cut_along, edges_between, shortest_paths
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.requirements import require_oriented
 from beltrami.mesh.topology import Topology
 
 
@@ -50,7 +51,7 @@ def cut_to_disk(mesh: Mesh) -> Cut:
     >>> cut.mesh.euler_characteristic, len(cut.mesh.boundary_loops), len(cut.edges)
     (1, 1, 20)
     """
-    _require_cuttable(mesh)
+    _require_cuttable(require_mesh(mesh, "a cut"))
     whole = cut_along(mesh, np.zeros(mesh.topology.n_edges, np.bool_))  # apart, if not a manifold
     chosen = _disk_edges(whole.mesh)
     if not chosen.any():
@@ -78,14 +79,11 @@ def _require_cuttable(mesh: Mesh) -> None:
             remedy="Drop them with repair(mesh, remove_unreferenced=True).",
         )
     require_finite(mesh.vertices, "the mesh")
-    if not topology.is_oriented:
-        raise NotOrientableError(
-            "neighbouring faces disagree on which side is outside",
-            edges=topology.inconsistent_edges,
-            remedy="See repair(mesh, orient=True)."
-            if topology.is_orientable
-            else "The surface has one side only: no cut into one piece per component lays it out.",
-        )
+    require_oriented(
+        topology,
+        "neighbouring faces disagree on which side is outside",
+        "The surface has one side only: no cut into one piece per component lays it out.",
+    )
 
 
 def _disk_edges(mesh: Mesh) -> Booleans:

@@ -9,6 +9,8 @@ from numpy.typing import ArrayLike
 
 from beltrami._arrays import Booleans, Floats, Integers, as_function, read_only
 from beltrami.errors import DimensionError
+from beltrami.mesh.door import topology_of
+from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
 from beltrami.operators.soundness import require_faces
 from beltrami.parameterization.crossings import crossings
@@ -52,7 +54,7 @@ class Certificate:
         )
 
 
-def certify(topology: Topology, uv: ArrayLike) -> Certificate:
+def certify(domain: Mesh | Topology, uv: ArrayLike) -> Certificate:
     r"""Decide whether a map to the plane, linear on the faces, is a bijection onto its image.
 
     All faces turn counter-clockwise and the boundary crosses itself nowhere: then the number of
@@ -64,8 +66,8 @@ def certify(topology: Topology, uv: ArrayLike) -> Certificate:
 
     Parameters
     ----------
-    topology
-        The faces, oriented.
+    domain
+        The faces, oriented: a Mesh, whose positions do not matter, or a Topology.
     uv
         (n, 2) positions.
 
@@ -88,6 +90,7 @@ def certify(topology: Topology, uv: ArrayLike) -> Certificate:
     >>> certify(square, [[0, 0], [1, 0], [1, 1], [2, 0.5]])
     <Certificate: no bijection; 1 flipped faces, 1 crossings of the boundary>
     """
+    topology = topology_of(domain)
     require_faces(topology)
     x = as_map(uv, topology.n_vertices)
     faces = topology.faces

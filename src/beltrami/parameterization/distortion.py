@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, read_only
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.geometry import in_space, well_scaled
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.soundness import require_sound
@@ -116,7 +117,7 @@ def distortion(mesh: Mesh, uv: ArrayLike) -> Distortion:
     >>> distortion(square, square.vertices @ [[2, 0], [0, 1]]).singular_values.round(12).tolist()
     [[2.0, 1.0], [2.0, 1.0]]
     """
-    require_sound(mesh)
+    require_sound(require_mesh(mesh, "a distortion"))
     return measured(mesh, as_map(uv, mesh.n_vertices))
 
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from beltrami._arrays import Floats, read_only
-from beltrami.errors import NotManifoldError, NotOrientableError, check_name
+from beltrami.errors import check_name
 from beltrami.mesh.cut import Cut
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.requirements import require_manifold, require_oriented
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.soundness import refuse_unreferenced, require_sound
 from beltrami.parameterization.layout import part_of, side_by_side
@@ -72,21 +74,16 @@ def flatten(mesh: Mesh, form: str = "areas", weights: str = "cotangent") -> Para
     True
     """
     check_name("form of flattening", form, FORMS)
+    require_mesh(mesh, "flattening")
     require_sound(mesh)
     if not mesh.topology.referenced.all():
         refuse_unreferenced(mesh.topology)
-    if not mesh.is_manifold:
-        raise NotManifoldError(
-            "the surface is not a manifold",
-            vertices=mesh.topology.non_manifold_vertices,
-            remedy="See repair(mesh, split_non_manifold=True).",
-        )
-    if not mesh.is_oriented:
-        raise NotOrientableError(
-            "neighbouring faces disagree on which side is outside",
-            edges=mesh.topology.inconsistent_edges,
-            remedy="See repair(mesh, orient=True).",
-        )
+    require_manifold(mesh.topology, "the surface is not a manifold")
+    require_oriented(
+        mesh.topology,
+        "neighbouring faces disagree on which side is outside",
+        "The surface has one side only, and folds are not defined.",
+    )
     labels = mesh.components()
     uv = np.zeros((mesh.n_vertices, 2))
     for component in range(int(labels.max()) + 1):

@@ -8,6 +8,7 @@ from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats, Integers, as_function, as_indices
 from beltrami.errors import DimensionError, MeshError
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.weights import Weigher, edge_weights
 from beltrami.solvers.factorize import factorize
@@ -58,6 +59,7 @@ def harmonic(
     >>> bool(abs(uv - mesh.vertices[:, :2]).max() < 1e-14)
     True
     """
+    require_mesh(mesh, "a harmonic map")
     at = as_indices(held, mesh.n_vertices, "held vertices")
     given = as_function(values, len(at), "the held values")
     if len(np.unique(at)) != len(at):

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from beltrami._arrays import Booleans, Floats, Integers, read_only
 from beltrami.errors import MeshError, NotADiskError, check_name
 from beltrami.mesh.cut import Cut, cut_along, edges_between, shortest_paths
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.tree_cotree import cut_to_disk
 from beltrami.operators.soundness import refuse_unreferenced, require_sound
@@ -134,7 +135,7 @@ def parameterize(
     (True, 40, 2.4)
     """
     check_name("method of parameterisation", method, METHODS)
-    require_sound(mesh)
+    require_sound(require_mesh(mesh, "a parameterisation"))
     if not mesh.topology.referenced.all():
         refuse_unreferenced(mesh.topology)
     if seams < 0:
