@@ -13,7 +13,8 @@ _STYLE = """
 body { font: 16px/1.55 system-ui, sans-serif; color: var(--ink); background: var(--paper);
   max-width: 60rem; margin: 0 auto; padding: 1.5rem; }
 h1 { font-size: 1.9rem; margin: 0; } h2 { margin: 3rem 0 .3rem; }
-nav { display: flex; flex-wrap: wrap; gap: .2rem 1rem; } p { max-width: 46rem; } .section { color: var(--quiet); }
+nav { display: flex; flex-wrap: wrap; gap: .2rem 1rem; }
+p { max-width: 46rem; } .section { color: var(--quiet); }
 figure { margin: 1.2rem 0; }
 img { max-width: 100%; height: auto; border-radius: 8px; background: #fff; }
 figcaption { color: var(--quiet); font-size: .92rem; max-width: 46rem; }
