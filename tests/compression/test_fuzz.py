@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import beltrami as bt
+from beltrami.compression import grid
 from beltrami.compression.contents import describe
 from beltrami.compression.varint import Reader
 from beltrami.errors import FileFormatError
@@ -97,6 +98,11 @@ def test_mutated_files(seed, data):
 def test_noise(noise):
     attempt(noise)
     attempt(FILES[0][:6] + noise)
+
+
+def test_a_signalling_nan_is_a_number_like_any_other_bad_one():
+    data = b"\x00" * 12 + b"\x01\x00\x80\x7f"  # of single precision
+    assert np.isnan(grid.from_bytes(data, is_short=True).step)
 
 
 @pytest.mark.heavy

@@ -108,7 +108,8 @@ def to_bytes(grid: PositionGrid) -> bytes:
 
 def from_bytes(data: bytes, is_short: bool) -> PositionGrid:
     """Read origin and step."""
-    numbers: NDArray[np.float64] = np.frombuffer(data, "<f4" if is_short else "<f8").astype(
-        np.float64
-    )
+    with np.errstate(invalid="ignore"):  # a signalling NaN; what is not finite is refused later
+        numbers: NDArray[np.float64] = np.frombuffer(data, "<f4" if is_short else "<f8").astype(
+            np.float64
+        )
     return PositionGrid(numbers[:-1], float(numbers[-1]))
