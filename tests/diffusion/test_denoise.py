@@ -256,6 +256,8 @@ class TestNoiseOfOtherKinds:
         x = np.column_stack([plane.vertices[:, :2], np.zeros(plane.n_vertices)])
         found = denoise(Mesh(x, plane.faces))
         assert np.allclose(found.mesh.vertices, x, atol=1e-12)
+        assert np.isnan(found.volume_change)  # of an open mesh, also where nothing is done
+        assert denoise(found.mesh, noise=0.0).mesh is found.mesh
         assert denoise(BLOB, "linear", noise=0.0).mesh.vertices == pytest.approx(
             BLOB.vertices, abs=1e-9
         )

@@ -102,7 +102,7 @@ def compress(
     Notes
     -----
     In O(n + m): about 60 microseconds per vertex with the best effort, 25 with the fast one, and
-    as much again to verify. The first call in a new installation compiles for some 20 seconds.
+    as much again to verify. The first call in a new installation compiles.
 
     References
     ----------
