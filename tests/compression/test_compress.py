@@ -173,7 +173,7 @@ def test_writing_is_whole_or_not_at_all(tmp_path):
 @pytest.mark.parametrize(
     ("options", "error", "message"),
     [
-        ({"mode": "spectral"}, UnknownNameError, "choose one of 'auto', 'grid', 'smooth'"),
+        ({"mode": "wavelets"}, UnknownNameError, "choose one of 'auto', 'grid', 'smooth', 'spec"),
         ({"effort": "most"}, UnknownNameError, "choose one of 'best', 'fast'"),
         ({"bits": 0}, MeshError, "bits must be 1 to 30, not 0"),
         ({"bits": 31}, MeshError, "bits must be 1 to 30, not 31"),

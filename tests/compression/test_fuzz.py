@@ -30,8 +30,10 @@ def files():
     plane = bt.shapes.disk(3)
     return [
         bt.compress(full, keep_order=True, bits=9),
-        bt.compress(full, max_error=1e-3, effort="fast"),
+        bt.compress(full, max_error=1e-3, effort="fast", mode="grid"),
         bt.compress(Mesh(plane.vertices, plane.faces[:, [0, 2, 1]]), bits=5),
+        bt.compress(full, mode="spectral", keep_order=True, max_error=0.05),
+        bt.compress(plane, mode="spectral", bits=6, effort="fast"),
         bt.compress(Mesh(np.zeros((0, 3)), np.zeros((0, 3), int))),
     ]
 
@@ -58,7 +60,12 @@ def with_checksums(data):
 
 
 def attempt(data):
-    for read, options in ((bt.decompress, {"max_vertices": LIMIT}), (describe, {})):
+    attempts = [
+        (bt.decompress, {"max_vertices": LIMIT}),
+        (bt.decompress, {"max_vertices": LIMIT, "partial": True}),
+        (describe, {}),
+    ]
+    for read, options in attempts:
         try:
             result = read(data, **options)
         except FileFormatError:

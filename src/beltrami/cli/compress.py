@@ -34,7 +34,13 @@ def compress(
         int | None,
         typer.Option(help="2^bits grid points along the longest side.", show_default="14"),
     ] = None,
-    mode: Annotated[str, typer.Option(help="auto, grid or smooth.")] = "auto",
+    mode: Annotated[str, typer.Option(help="auto, grid, smooth or spectral.")] = "auto",
+    terms: Annotated[
+        int | None,
+        typer.Option(
+            help="With --mode spectral: frequencies of each block of vertices.", show_default="all"
+        ),
+    ] = None,
     effort: Annotated[str, typer.Option(help="best or fast.")] = "best",
     keep_order: Annotated[
         bool, typer.Option("--keep-order", help="Keep the numbers of the vertices.")
@@ -74,6 +80,7 @@ def compress(
             max_error=max_error,
             bits=bits,
             mode=mode,
+            terms=terms,
             effort=effort,
             keep_order=keep_order,
             progress=progress,

@@ -6,8 +6,9 @@ import os
 
 import numpy as np
 
-from beltrami._arrays import Floats, Integers, require_finite
+from beltrami._arrays import Floats, Integers, require_finite, whole
 from beltrami._progress import Progress
+from beltrami.compression.choosing import MODES, Wish, encode_wish
 from beltrami.compression.connectivity import Connectivity, encode_connectivity
 from beltrami.compression.container import (
     CONNECTIVITY,
@@ -15,6 +16,8 @@ from beltrami.compression.container import (
     GRID,
     KEEPS_ORDER,
     ORDER,
+    PROGRESSIVE,
+    SPECTRUM,
     UV,
     Section,
     pack,
@@ -22,17 +25,15 @@ from beltrami.compression.container import (
 from beltrami.compression.contents import describe
 from beltrami.compression.decompress import decompress
 from beltrami.compression.functions import encode_array
-from beltrami.compression.geometry import EFFORTS, MOST_COORDINATES, encode_positions
-from beltrami.compression.grid import MOST_BITS, grid_for
+from beltrami.compression.geometry import EFFORTS, MOST_COORDINATES
+from beltrami.compression.grid import MOST_BITS
 from beltrami.compression.ordering import encode_order
-from beltrami.compression.smooth_grid import smooth_grid
 from beltrami.errors import BeltramiError, DimensionError, MeshError, check_name
 from beltrami.io.atomic import replacing
 from beltrami.mesh.door import require_mesh, topology_of
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
 
-MODES = ("auto", "grid", "smooth")
 _BITS = 14
 
 
@@ -43,6 +44,7 @@ def compress(
     max_error: float | None = None,
     bits: int | None = None,
     mode: str = "auto",
+    terms: int | None = None,
     effort: str = "best",
     keep_order: bool = False,
     verify: bool = True,
@@ -75,7 +77,15 @@ def compress(
         ``"grid"``: the points of the grid. ``"smooth"``: moved from there, within their cells, to
         where the surface is smooth; less mean error for the same bytes where cells are not small
         beside the edges, but a vertex can be a whole diagonal of a cell off: the file says how
-        much at most. ``"auto"``: whatever keeps the bound in the fewest bytes, as yet ``"grid"``.
+        much at most. ``"spectral"``: the codec of the chapter, coefficients in the eigenvectors
+        of Laplacians that the faces alone give, rounded to multiples of the step of the grid, then
+        smoothed in the same way; the fewest bytes for a coarse shape, and any beginning of the
+        file is a coarser one (``decompress(..., partial=True)``). ``"auto"``: with ``max_error``
+        the one that takes the fewest bytes, tried where the grid takes less than a byte for each
+        vertex (with more it is the best); else ``"grid"``.
+    terms
+        With ``"spectral"``, no more than that many of the lowest frequencies of each block of at
+        most 500 vertices (with the effort ``"fast"`` 250), the M of definition 21.
     effort
         ``"best"``, or ``"fast"``: about half the time, for some percent more bytes.
     keep_order
@@ -102,7 +112,8 @@ def compress(
     Notes
     -----
     In O(n + m): about 60 microseconds per vertex with the best effort, 25 with the fast one, and
-    as much again to verify. The first call in a new installation compiles.
+    as much again to verify; the mode ``"spectral"`` about 120 and 40. The first call in a new
+    installation compiles.
 
     References
     ----------
@@ -121,24 +132,26 @@ def compress(
     check_name("mode", mode, MODES)
     check_name("effort", effort, EFFORTS)
     _check(mesh, max_error, bits)
-    payload, found = encode_connectivity(mesh.topology)
-    x = mesh.vertices[found.vertices]
+    terms = None if terms is None else whole("the number of terms", terms, 1, mesh.n_vertices)
+    if terms is not None and mode != "spectral":
+        raise MeshError(f"the mode {mode!r} has no terms: they belong to the mode 'spectral'")
     if max_error is None and bits is None:
         bits = _BITS
-    if mode == "smooth":
-        grid, choice = smooth_grid(x, found.faces, max_error, bits)
-    else:
-        grid, choice = grid_for(x, max_error, bits), 0
-    positions = encode_positions(x, found.faces, grid, effort, choice, progress)
-    sections = [Section(CONNECTIVITY, payload), Section(GRID, positions)]
+    wish = Wish(max_error, bits, mode, effort, terms)
+    payload, found = encode_connectivity(mesh.topology)
+    x = mesh.vertices[found.vertices]
+    positions = encode_wish(x, found.faces, wish, progress)
+    sections = [Section(CONNECTIVITY, payload), positions]
     if keep_order:
-        sections.append(Section(ORDER, encode_order(found.vertices)))
+        order = Section(ORDER, encode_order(found.vertices))
+        sections.insert(2 if positions.kind == GRID else 1, order)
     for name, values in mesh.vertex_data.items():
         sections.append(Section(DATA, encode_array(name, values[found.vertices])))
     if mesh.corner_uv is not None:
         uv = _corners(mesh.corner_uv, mesh.topology, found)
         sections.append(Section(UV, encode_array("uv", uv.reshape(-1, 6))))
-    data = pack(KEEPS_ORDER if keep_order else 0, sections)
+    features = PROGRESSIVE if positions.kind == SPECTRUM else 0
+    data = pack(features | (KEEPS_ORDER if keep_order else 0), sections)
     if verify:
         _verify(data, mesh, found, max_error, keep_order)
     if path is not None:

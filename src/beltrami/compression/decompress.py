@@ -16,7 +16,10 @@ from beltrami.compression.container import (
     DATA,
     GRID,
     KEEPS_ORDER,
+    NAMES,
     ORDER,
+    PROGRESSIVE,
+    SPECTRUM,
     UV,
     Section,
     bytes_of,
@@ -25,6 +28,7 @@ from beltrami.compression.container import (
 from beltrami.compression.functions import decode_array
 from beltrami.compression.geometry import decode_positions
 from beltrami.compression.ordering import decode_order
+from beltrami.compression.spectral_reading import decode_spectrum
 from beltrami.compression.varint import Reader
 from beltrami.errors import FileFormatError
 from beltrami.mesh.mesh import Mesh
@@ -36,8 +40,12 @@ def decompress(
     source: bytes | str | os.PathLike[str],
     max_vertices: int = MAX_VERTICES,
     progress: Progress | None = None,
+    *,
+    partial: bool = False,
 ) -> Mesh:
     """Read a compressed mesh; the same bytes give the same bits on every machine.
+
+    Chapter items: P58, P66, P68.
 
     Parameters
     ----------
@@ -47,6 +55,11 @@ def decompress(
         Refuse files that declare more: bounds time and memory where bytes cannot be trusted.
     progress
         Called with (vertices decoded, n).
+    partial
+        Take a file of the mode ``"spectral"`` that was cut off anywhere behind the first
+        coefficients: all faces, and the coarser shape of the coefficients that are there, of which
+        no bound is known. Functions that were cut off are left out. A whole file gives the whole
+        mesh.
 
     Raises
     ------
@@ -65,9 +78,15 @@ def decompress(
     <Mesh: 42 vertices in R³, 80 faces>
     """
     data, path = bytes_of(source)
-    features, sections = unpack(data, path)
+    features, sections = unpack(data, path, partial)
+    cut = sections.pop() if sections and sections[-1].is_cut else None
     faces, n = decode_connectivity(_the(CONNECTIVITY, sections, path), max_vertices)
-    x = decode_positions(_the(GRID, sections, path), faces, n, progress)
+    if features & PROGRESSIVE:
+        last = cut if cut is not None and cut.kind == SPECTRUM else None
+        reader = last.reader(path) if last else _the(SPECTRUM, sections, path)
+        x = decode_spectrum(reader, faces, n, progress, last is not None)
+    else:
+        x = decode_positions(_the(GRID, sections, path), faces, n, progress)
     functions: dict[str, NDArray[Any]] = {}
     uv: Floats | None = None
     for section in sections:
@@ -93,7 +112,7 @@ def _the(kind: int, sections: list[Section], path: object) -> Reader:
     for section in sections:
         if section.kind == kind:
             return section.reader(path)
-    raise FileFormatError(path, f"there is no section of the kind {kind}")
+    raise FileFormatError(path, f"there is no section {NAMES[kind]!r}, or not the whole of it")
 
 
 def _checked_uv(reader: Reader, m: int) -> Floats:
