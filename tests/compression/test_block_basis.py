@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from beltrami.compression.block_basis import BlockBasis, fill_laplacian
-from beltrami.compression.geometry import surroundings
+from beltrami.compression.numbers import surroundings
 from beltrami.compression.tridiagonal import tridiagonalise, turn_back
 from beltrami.compression.tridiagonal_pairs import lowest_eigenvalues, tridiagonal_vectors
 from beltrami.mesh import shapes

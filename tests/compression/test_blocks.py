@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from beltrami.compression.blocks import cut_into_blocks
-from beltrami.compression.geometry import surroundings
+from beltrami.compression.numbers import surroundings
 from beltrami.mesh import shapes
 from strategies import any_meshes
 

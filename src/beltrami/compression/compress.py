@@ -3,30 +3,33 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 
 import numpy as np
 
 from beltrami._arrays import Floats, Integers, require_finite, whole
 from beltrami._progress import Progress
+from beltrami.compression.attributes import Attributes, check_errors, encode_attributes
 from beltrami.compression.choosing import MODES, Wish, encode_wish
 from beltrami.compression.connectivity import Connectivity, encode_connectivity
 from beltrami.compression.container import (
     CONNECTIVITY,
-    DATA,
     GRID,
     KEEPS_ORDER,
     ORDER,
+    PREDICTED,
+    PREDICTED_UV,
+    PREDICTS,
     PROGRESSIVE,
     SPECTRUM,
-    UV,
     Section,
     pack,
 )
 from beltrami.compression.contents import describe
 from beltrami.compression.decompress import decompress
-from beltrami.compression.functions import encode_array
-from beltrami.compression.geometry import EFFORTS, MOST_COORDINATES
+from beltrami.compression.geometry import MOST_COORDINATES
 from beltrami.compression.grid import MOST_BITS
+from beltrami.compression.numbers import EFFORTS
 from beltrami.compression.ordering import encode_order
 from beltrami.errors import BeltramiError, DimensionError, MeshError, check_name
 from beltrami.io.atomic import replacing
@@ -47,6 +50,8 @@ def compress(
     terms: int | None = None,
     effort: str = "best",
     keep_order: bool = False,
+    function_errors: Mapping[str, float] | None = None,
+    uv_error: float | None = None,
     verify: bool = True,
     progress: Progress | None = None,
 ) -> bytes:
@@ -56,7 +61,8 @@ def compress(
     same direction, whatever the faces are. Vertices are numbered as they are met on a walk over
     the surface, which ``vertex_order`` tells; with ``keep_order`` they keep their numbers, faces
     do not. Which corner of a face comes first is not kept. Functions on the vertices and texture
-    coordinates come back exactly.
+    coordinates come back exactly, unless an error is allowed for them; like positions they are
+    predicted from those around, where that is shorter.
 
     Positions are rounded to a grid. Each vertex is predicted from those before it by local
     systems of Laplacians and of parallelograms, which depend on the faces and on positions that
@@ -90,6 +96,11 @@ def compress(
         ``"best"``, or ``"fast"``: about half the time, for some percent more bytes.
     keep_order
         Keep the numbers of the vertices; at most log2(n) bits for each.
+    function_errors
+        For functions of floating-point numbers, by name: how far the values at a vertex may move
+        (by the norm, where there are several). The others come back bit by bit.
+    uv_error
+        How far texture coordinates may move; without, they come back bit by bit.
     verify
         Decode the bytes and compare before they are returned.
     progress
@@ -132,6 +143,7 @@ def compress(
     check_name("mode", mode, MODES)
     check_name("effort", effort, EFFORTS)
     _check(mesh, max_error, bits)
+    check_errors(mesh.vertex_data, function_errors or {})
     terms = None if terms is None else whole("the number of terms", terms, 1, mesh.n_vertices)
     if terms is not None and mode != "spectral":
         raise MeshError(f"the mode {mode!r} has no terms: they belong to the mode 'spectral'")
@@ -145,15 +157,12 @@ def compress(
     if keep_order:
         order = Section(ORDER, encode_order(found.vertices))
         sections.insert(2 if positions.kind == GRID else 1, order)
-    for name, values in mesh.vertex_data.items():
-        sections.append(Section(DATA, encode_array(name, values[found.vertices])))
-    if mesh.corner_uv is not None:
-        uv = _corners(mesh.corner_uv, mesh.topology, found)
-        sections.append(Section(UV, encode_array("uv", uv.reshape(-1, 6))))
-    features = PROGRESSIVE if positions.kind == SPECTRUM else 0
-    data = pack(features | (KEEPS_ORDER if keep_order else 0), sections)
+    functions = {name: values[found.vertices] for name, values in mesh.vertex_data.items()}
+    uv = None if mesh.corner_uv is None else _corners(mesh.corner_uv, mesh.topology, found)
+    others = encode_attributes(functions, uv, found, effort, function_errors or {}, uv_error)
+    data = pack(_features(positions, others, keep_order), sections + others.sections)
     if verify:
-        _verify(data, mesh, found, max_error, keep_order)
+        _verify(data, mesh, found, others, max_error, keep_order)
     if path is not None:
         with replacing(path) as file:
             file.write(data)
@@ -185,6 +194,14 @@ def _check(mesh: Mesh, max_error: float | None, bits: int | None) -> None:
         raise MeshError(f"bits must be 1 to {MOST_BITS}, not {bits}")
 
 
+def _features(positions: Section, others: Attributes, keep_order: bool) -> int:
+    """Return the features that a reader must know."""
+    features = KEEPS_ORDER if keep_order else 0
+    features |= PROGRESSIVE if positions.kind == SPECTRUM else 0
+    kinds = {section.kind for section in others.sections}
+    return features | (PREDICTS if kinds & {PREDICTED, PREDICTED_UV} else 0)
+
+
 def _corners(uv: Floats, topology: Topology, found: Connectivity) -> Floats:
     """Sort what the corners have as the file sorts faces and corners."""
     old = topology.faces[found.source]
@@ -200,6 +217,7 @@ def _verify(
     data: bytes,
     mesh: Mesh,
     found: Connectivity,
+    others: Attributes,
     max_error: float | None,
     keep_order: bool,
 ) -> None:
@@ -217,15 +235,15 @@ def _verify(
             remedy="Allow a larger error, or move the mesh to the origin.",
         )
     same = np.array_equal(decoded.faces, faces) and error <= bound + rounding
-    for name, values in mesh.vertex_data.items():
-        kept = values if keep_order else values[found.vertices]
-        ordered = kept.astype(kept.dtype.newbyteorder("<"))
-        same = same and decoded.vertex_data[name].tobytes() == ordered.tobytes()
-    if mesh.corner_uv is not None:
-        uv = _corners(mesh.corner_uv, mesh.topology, found)
+    for name, values in others.functions.items():
+        ordered = values.astype(values.dtype.newbyteorder("<"))
+        back = decoded.vertex_data[name]
         same = (
-            same and decoded.corner_uv is not None and decoded.corner_uv.tobytes() == uv.tobytes()
+            same and (back[found.vertices] if keep_order else back).tobytes() == ordered.tobytes()
         )
+    if others.uv is not None:
+        uv = decoded.corner_uv
+        same = same and uv is not None and uv.tobytes() == others.uv.tobytes()
     if not same:
         raise BeltramiError(
             "decoding does not give the mesh back: please report this, it is a defect of beltrami"

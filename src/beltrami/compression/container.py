@@ -13,7 +13,7 @@ MAGIC = b"\x89BTM"
 VERSION = 1
 
 # Sections; each at most once, but for functions.
-CONNECTIVITY, GRID, ORDER, DATA, UV, SPECTRUM = range(1, 7)
+CONNECTIVITY, GRID, ORDER, DATA, UV, SPECTRUM, PREDICTED, PREDICTED_UV = range(1, 9)
 NAMES = {
     CONNECTIVITY: "connectivity",
     GRID: "positions on a grid",
@@ -21,15 +21,21 @@ NAMES = {
     DATA: "functions",
     UV: "texture coordinates",
     SPECTRUM: "positions in a spectrum",
+    PREDICTED: "predicted functions",
+    PREDICTED_UV: "predicted texture coordinates",
 }
-_PLACES = {CONNECTIVITY: 0, GRID: 1, ORDER: 2, SPECTRUM: 3, DATA: 4, UV: 5}  # in the file
+# Their order in the file; of one rank in any order.
+_RANKS = {CONNECTIVITY: 0, GRID: 1, ORDER: 2, SPECTRUM: 3, DATA: 4, PREDICTED: 4, UV: 5}
+_RANKS[PREDICTED_UV] = 6
+_SEVERAL = (DATA, PREDICTED)
 
 # Features that a reader must know; a bit of the sixth byte each.
 FEATURES = {
     1: "the order of the vertices is kept",
     2: "any beginning with all faces is a coarser shape",
+    4: "functions are predicted",
 }
-KEEPS_ORDER, PROGRESSIVE = FEATURES
+KEEPS_ORDER, PROGRESSIVE, PREDICTS = FEATURES
 
 
 @dataclass(frozen=True)
@@ -98,10 +104,11 @@ def unpack(data: bytes, path: object, partial: bool = False) -> tuple[int, list[
     if reader.position != len(data):
         raise reader.fault(f"{len(data) - reader.position} bytes after the last section")
     kinds = [section.kind for section in sections]
-    if kinds != sorted(kinds, key=_PLACES.__getitem__) or any(
-        kinds.count(k) > 1 for k in NAMES if k != DATA
-    ):
+    twice = [k for k in NAMES if kinds.count(k) > 1 and k not in _SEVERAL]
+    if kinds != sorted(kinds, key=_RANKS.__getitem__) or twice:
         raise reader.fault("the sections are in a wrong order, or one is there twice")
+    if not features & PREDICTS and any(k in (PREDICTED, PREDICTED_UV) for k in kinds):
+        raise reader.fault("predicted functions that were not announced")
     return features, sections
 
 

@@ -8,24 +8,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import Floats, Integers
+from beltrami._arrays import Integers
 from beltrami._progress import Progress
+from beltrami.compression.attributes_reading import decode_attributes
 from beltrami.compression.connectivity import decode_connectivity
 from beltrami.compression.container import (
     CONNECTIVITY,
-    DATA,
     GRID,
     KEEPS_ORDER,
     NAMES,
     ORDER,
     PROGRESSIVE,
     SPECTRUM,
-    UV,
     Section,
     bytes_of,
     unpack,
 )
-from beltrami.compression.functions import decode_array
 from beltrami.compression.geometry import decode_positions
 from beltrami.compression.ordering import decode_order
 from beltrami.compression.spectral_reading import decode_spectrum
@@ -87,16 +85,7 @@ def decompress(
         x = decode_spectrum(reader, faces, n, progress, last is not None)
     else:
         x = decode_positions(_the(GRID, sections, path), faces, n, progress)
-    functions: dict[str, NDArray[Any]] = {}
-    uv: Floats | None = None
-    for section in sections:
-        if section.kind == DATA:
-            name, values = decode_array(section.reader(path), n)
-            if name in functions:
-                raise FileFormatError(path, f"two functions of the name {name!r}")
-            functions[name] = values
-        elif section.kind == UV:
-            uv = _checked_uv(section.reader(path), len(faces))
+    functions, uv = decode_attributes(sections, path, faces, n)
     if bool(features & KEEPS_ORDER) != any(section.kind == ORDER for section in sections):
         raise FileFormatError(path, "the order of the vertices is announced and not there")
     if features & KEEPS_ORDER:
@@ -113,13 +102,6 @@ def _the(kind: int, sections: list[Section], path: object) -> Reader:
         if section.kind == kind:
             return section.reader(path)
     raise FileFormatError(path, f"there is no section {NAMES[kind]!r}, or not the whole of it")
-
-
-def _checked_uv(reader: Reader, m: int) -> Floats:
-    _, values = decode_array(reader, m)
-    if values.shape != (m, 6) or values.dtype != np.float64:
-        raise reader.fault("texture coordinates of a wrong shape")
-    return values.reshape(m, 3, 2)
 
 
 def _sorted_back(values: NDArray[Any], order: Integers) -> NDArray[Any]:

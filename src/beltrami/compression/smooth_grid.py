@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from beltrami._arrays import Floats, Integers
-from beltrami.compression.geometry import largest_error, surroundings
+from beltrami.compression.geometry import largest_error
 from beltrami.compression.grid import PositionGrid, grid_for
+from beltrami.compression.numbers import surroundings
 from beltrami.compression.smoothing import best_choice
 
 _TRIES = (1.0, 0.9, 0.8, 0.7, 0.6)  # of the coarsest grid that the bound could allow

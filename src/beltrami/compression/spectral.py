@@ -13,9 +13,9 @@ from beltrami.compression.block_basis import BlockBasis
 from beltrami.compression.blocks import Blocks, cut_into_blocks
 from beltrami.compression.coefficients import code_coefficients, new_memory
 from beltrami.compression.corrections import corrections_for, encode_corrections
-from beltrami.compression.geometry import surroundings
 from beltrami.compression.grid import PositionGrid
 from beltrami.compression.neighbourhood import Neighbourhood
+from beltrami.compression.numbers import surroundings
 from beltrami.compression.range_coder import POSITION, finished, new_encoder
 from beltrami.compression.smoothing import best_choice, smoothed
 from beltrami.compression.spectral_head import MOST_IN_A_BLOCK, SpectralHead

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from beltrami.compression import grid as grids
-from beltrami.compression.geometry import EFFORTS, MOST_COORDINATES
+from beltrami.compression.geometry import MOST_COORDINATES
 from beltrami.compression.grid import PositionGrid
+from beltrami.compression.numbers import EFFORTS
 from beltrami.compression.smoothing import WEIGHTS
 from beltrami.compression.varint import Reader, to_varints
 

@@ -10,7 +10,7 @@ from beltrami.compression.block_basis import BlockBasis
 from beltrami.compression.blocks import Blocks, cut_into_blocks
 from beltrami.compression.coefficients import code_coefficients, new_memory
 from beltrami.compression.corrections import decode_corrections
-from beltrami.compression.geometry import surroundings
+from beltrami.compression.numbers import surroundings
 from beltrami.compression.range_coder import new_decoder, readable
 from beltrami.compression.smoothing import smoothed
 from beltrami.compression.spectral import sum_up
