@@ -45,6 +45,32 @@ def test_a_relative_error_is_a_part_of_the_diagonal(beltrami, sphere, tmp_path):
     assert facts["original_size"] == sphere.stat().st_size
 
 
+def test_a_spectral_file_and_its_beginning(beltrami, sphere, tmp_path):
+    small, part, back = tmp_path / "a.btm", tmp_path / "part.btm", tmp_path / "b.ply"
+    done = beltrami("compress", sphere, "-o", small, "--mode", "spectral", "--terms", 30)
+    assert done.exit_code == 0, done.stderr
+    assert "mode spectral" in beltrami("info", small).stdout
+    assert 0 < json.loads(beltrami("info", small, "--json").stdout)["terms"] <= 30
+    part.write_bytes(small.read_bytes()[:-20])
+    assert beltrami("decompress", part, "-o", back).exit_code == 1
+    assert beltrami("decompress", part, "-o", back, "--partial").exit_code == 0
+    assert read_mesh(back).n_faces == read_mesh(sphere).n_faces
+
+
+def test_errors_of_functions(beltrami, sphere, tmp_path):
+    given, small = tmp_path / "f.ply", tmp_path / "a.btm"
+    mesh = read_mesh(sphere)
+    height = mesh.vertices[:, 2]
+    bt.write_mesh(given, bt.Mesh(mesh.vertices, mesh.faces, {"height": height}))
+    done = beltrami("compress", given, "-o", small, "--function-error", "height=0.01")
+    assert done.exit_code == 0, done.stderr
+    off = bt.decompress(small).vertex_data["height"] - height[bt.vertex_order(mesh)]
+    assert 0 < abs(off).max() <= 0.01
+    for wrong in ("height", "height=x", "=3"):
+        done = beltrami("compress", given, "-o", small, "--function-error", wrong)
+        assert (done.exit_code, "expected NAME=ERROR" in done.stderr) == (2, True)
+
+
 def test_info_tells_the_sections(beltrami, sphere, tmp_path):
     small = tmp_path / "a.btm"
     beltrami("compress", sphere, "-o", small, "--bits", 9, "--effort", "fast", "--keep-order")

@@ -45,6 +45,18 @@ def compress(
     keep_order: Annotated[
         bool, typer.Option("--keep-order", help="Keep the numbers of the vertices.")
     ] = False,
+    function_error: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=ERROR",
+            help="How far a function may move; else exact.",
+            show_default=False,
+        ),
+    ] = None,
+    uv_error: Annotated[
+        float | None,
+        typer.Option(help="How far texture coordinates may move.", show_default="exact"),
+    ] = None,
     curve: Annotated[
         bool,
         typer.Option(
@@ -53,7 +65,7 @@ def compress(
     ] = False,
     json: Json = False,
 ) -> None:
-    """Compress a mesh: faces exactly, positions within a bound, functions exactly.
+    """Compress a mesh: faces exactly, positions within a bound, functions exactly or within one.
 
     Vertices and faces are numbered anew, vertices not with --keep-order. The file is decoded and
     compared before it is written.
@@ -83,6 +95,8 @@ def compress(
             terms=terms,
             effort=effort,
             keep_order=keep_order,
+            function_errors=_errors(function_error or []),
+            uv_error=uv_error,
             progress=progress,
         )
     contents = describe(data)
@@ -94,3 +108,17 @@ def compress(
         f"wrote {output}: {len(data)} bytes, {rate:.2f} bits per vertex, "
         f"error at most {contents.max_error:.3g}"
     )
+
+
+def _errors(options: list[str]) -> dict[str, float]:
+    """Read errors of functions: NAME=ERROR each."""
+    errors = {}
+    for option in options:
+        name, _, number = option.rpartition("=")
+        try:
+            errors[name] = float(number)
+        except ValueError:
+            name = ""
+        if not name:
+            raise typer.BadParameter(f"expected NAME=ERROR, found {option!r}")
+    return errors
