@@ -51,12 +51,12 @@ class BlockBasis:
         operations, and 2 n² for each vector.
         """
         n = len(vertices)
-        A = np.zeros((n, n))
-        self._place[vertices] = np.arange(n)
-        fill_laplacian(vertices, self._near, self._place, A)
-        self._place[vertices] = -1
         U = np.zeros((n, count))
         if count:
+            A = np.zeros((n, n))
+            self._place[vertices] = np.arange(n)
+            fill_laplacian(vertices, self._near, self._place, A)
+            self._place[vertices] = -1
             _eigenvectors(A, U)
         return U
 
