@@ -22,9 +22,12 @@ from beltrami.mesh.mesh import Mesh
 from beltrami.operators.soundness import refuse_unreferenced, require_sound
 from beltrami.operators.weights import SYMMETRIC_WEIGHTS
 
+SUFFIXES = (".html", ".htm")
+LAPLACIANS = ("cotangent", "combinatorial", "distance")
 _AXES = ("x", "y", "z")
 _WEIGHTS = (*SYMMETRIC_WEIGHTS, "intrinsic_delaunay", "tufted")
 _SEED = 2
+_MOST_MODES = 1024  # layers and weights that every graphics card has room for
 
 
 @dataclass(frozen=True)
@@ -53,7 +56,7 @@ def page(
     *,
     title: str = "",
     modes: int = 64,
-    laplacians: tuple[str, ...] = ("cotangent", "combinatorial", "distance"),
+    laplacians: tuple[str, ...] = LAPLACIANS,
     plane: bool = True,
     noise: float = 0.2,
     up: str = "y",
@@ -82,7 +85,7 @@ def page(
     title
         What the page is called; the name of the file by default.
     modes
-        Eigenpairs of each Laplacian; all, if there are fewer.
+        Eigenpairs of each Laplacian, up to 1024; all, if there are fewer.
     laplacians
         Weights, at least one, each with its default mass.
     plane
@@ -125,7 +128,7 @@ def page(
     (True, ('without the comparison of noise: it was not asked for.',))
     """
     file = Path(path)
-    check_name("suffix of a page", file.suffix.lower(), (".html", ".htm"))
+    check_name("suffix of a page", file.suffix.lower(), SUFFIXES)
     require_sound(require_mesh(mesh, "a page"))
     if not mesh.topology.referenced.all():
         refuse_unreferenced(mesh.topology)
@@ -140,7 +143,7 @@ def page(
     if not 0 <= noise < np.inf:
         raise BeltramiError(f"noise is {shown(noise)}, where a finite number >= 0 is needed")
     axis = check_name("axis", up, _AXES)
-    wanted = Wanted(whole("modes", modes, 1), kinds, plane, float(noise), axis, unit)
+    wanted = Wanted(whole("modes", modes, 1, _MOST_MODES), kinds, plane, float(noise), axis, unit)
     functions = _own(mesh, axis) | _given(f, mesh.n_vertices)
     parts = len(kinds) + 4
     done = 0

@@ -33,7 +33,7 @@ def web_files() -> dict[str, str]:
 
 
 def bundle(modules: Mapping[str, str], entry: str = _ENTRY) -> str:
-    """Join ES modules into one script: each becomes a function that returns what it exports.
+    r"""Join ES modules into one script: each becomes a function that returns what it exports.
 
     Modules import by ``import { a, b } from "./name.js";`` and export declarations, nothing else.
 
@@ -44,8 +44,8 @@ def bundle(modules: Mapping[str, str], entry: str = _ENTRY) -> str:
 
     Examples
     --------
-    >>> print(bundle({"main.js": 'import { a } from "./one.js";\\nf(a);\\n',
-    ...               "one.js": "export const a = 1;\\n"}))
+    >>> print(bundle({"main.js": 'import { a } from "./one.js";\nf(a);\n',
+    ...               "one.js": "export const a = 1;\n"}))
     "use strict";
     const $one = (() => {
     const a = 1;
@@ -89,7 +89,7 @@ def _wrapped(name: str, text: str, exports: list[str]) -> str:
     def as_constant(found: re.Match[str]) -> str:
         return f"const {{ {', '.join(_listed(found[1]))} }} = ${found[2][:-3]};\n"
 
-    body = re.sub(r"^export ", "", _IMPORT.sub(as_constant, text), flags=re.MULTILINE)
+    body = re.sub(_EXPORT, lambda found: found[0][7:], _IMPORT.sub(as_constant, text))
     if re.search(r"^(import|export)\b", body, re.MULTILINE):
         raise BeltramiError(f"{name} imports or exports in a way that cannot be joined")
     if "</script" in body.lower():

@@ -71,14 +71,14 @@ def quantized(values: Floats, steps: Floats) -> Integers:
 
 
 def planes_of(residuals: Integers) -> tuple[bytes, int]:
-    """Fold signed integers into 0, -1, 1, -2 ... and list their bytes: all first ones, then on.
+    r"""Fold signed integers into 0, -1, 1, -2 ... and list their bytes: all first ones, then on.
 
     Columns follow each other, so that numbers of one kind are together.
 
     Examples
     --------
     >>> planes_of(np.array([[0, -1], [1, 200]]))
-    (b'\\x00\\x02\\x01\\x90\\x00\\x00\\x00\\x01', 2)
+    (b'\x00\x02\x01\x90\x00\x00\x00\x01', 2)
     """
     flat = np.ascontiguousarray(residuals.T).ravel().astype(np.int64)
     folded = np.where(flat >= 0, 2 * flat, -2 * flat - 1).astype("<u8")

@@ -100,7 +100,7 @@ def page_contents(
         tell()
     header["plane"] = _plane(sections, mesh, order, wanted, edge)
     tell()
-    header["comparison"] = _comparison(sections, mesh, order, places, wanted, edge)
+    header["comparison"] = _comparison(sections, mesh, order, wanted, edge)
     tell()
     parts = (("the map to the plane", "plane"), ("the comparison of noise", "comparison"))
     notes = tuple(
@@ -221,7 +221,7 @@ def _plane(
 
 
 def _copies(found: Parameterization, order: Order, n: int) -> tuple[Integers, Integers]:
-    """Number the vertices of the cut mesh: of copies of one vertex the first has its number.
+    """Give each vertex of the cut mesh a number, the first copy of one that of the original.
 
     Returns the number of each vertex of the cut mesh, and the faces in the order of the page.
     """
@@ -237,11 +237,13 @@ def _copies(found: Parameterization, order: Order, n: int) -> tuple[Integers, In
 
 
 def _comparison(
-    sections: Sections, mesh: Mesh, order: Order, places: Integers, wanted: Wanted, edge: float
+    sections: Sections, mesh: Mesh, order: Order, wanted: Wanted, edge: float
 ) -> dict[str, Any]:
     """Append a copy with noise along the normals, and what ``denoise`` makes of it."""
     if wanted.noise == 0:
         return {"reason": "it was not asked for."}
+    if mesh.dimension == 2:
+        return {"reason": "the mesh lies in the plane, and noise would leave it."}
     sigma = wanted.noise * edge
     try:
         normals = mesh.vertex_normals

@@ -48,7 +48,7 @@ def pair_faces(faces: Integers, n: int) -> Pairs:
     --------
     >>> pairs = pair_faces(np.array([[0, 1, 2], [0, 2, 3]]), 4)
     >>> [int(one[0]) for one in pairs]
-    [0, 2, 3, 1, 1, 0]
+    [0, 2, 1, 3, 0, 1]
     """
     m = len(faces)
     ends = np.concatenate([faces[:, [1, 2]], faces[:, [2, 0]], faces[:, [0, 1]]])

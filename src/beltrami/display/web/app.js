@@ -2,20 +2,23 @@
 
 import { axesOf, matrixOf, startCamera } from "./camera.js";
 import { ColourBar, chosenMap, tableOf } from "./colours.js";
+import { isSoftware } from "./gl.js";
 import { Painter } from "./painter.js";
 import { NormalPass, SynthesisPass, modeTexture, readPlaces, surfaceBuffers } from "./passes.js";
+import { Quantities } from "./quantities.js";
 import { ringsOf } from "./topology.js";
-import { unitOf, written } from "./ticks.js";
 import { add, scaled, unit } from "./vectors.js";
 import { comparisonMeshes, flatMesh, viewsOf } from "./views.js";
 
 const CALM = 250; // milliseconds between readings of least and largest values
+const SLOW = 60; // milliseconds between frames from which on moving pictures are coarser
+const COARSE = 0.6;
 
-export class App {
+export class App extends Quantities {
   constructor(data, canvas) {
-    this.data = data;
+    super(data);
     this.canvas = canvas;
-    const gl = canvas.getContext("webgl2", { antialias: true, alpha: false });
+    const gl = canvas.getContext("webgl2", { antialias: !isSoftware(), alpha: false });
     if (!gl) throw new Error("This browser has no WebGL2, which the page needs to compute.");
     this.gl = gl;
     const { header, n } = data;
@@ -30,70 +33,11 @@ export class App {
     this.marked = this.topmost();
     this.frames = [];
     this.loaded = new Map();
+    this.pace = 0;
+    this.useTheme();
     this.valuesOf = null;
     this.useSpectrum();
     this.stale = true;
-  }
-
-  // What panels ask for.
-
-  get spectrum() {
-    return this.data.spectra[this.state.spectrum];
-  }
-
-  get k() {
-    return this.spectrum.eigenvalues.length;
-  }
-
-  mode(i, vertex) {
-    return this.levels[i][vertex] * this.spectrum.steps[i];
-  }
-
-  largest(i) {
-    return this.levels[i].reduce((top, x) => Math.max(top, Math.abs(x)), 0) * this.spectrum.steps[i];
-  }
-
-  mean(coefficients) {
-    // the constant part: all modes of the eigenvalue 0 together, weighted with their own means
-    const zero = this.spectrum.eigenvalues.filter((x) => x <= 1e-9 * this.spectrum.eigenvalues[this.k - 1]);
-    if (zero.length !== 1) return NaN;
-    return (coefficients[0] / Math.sqrt(this.spectrum.total)) * Math.sign(this.levels[0][0]);
-  }
-
-  numberOf(vertex) {
-    return this.data.numbers[vertex];
-  }
-
-  written(x) {
-    return Number.isNaN(x) ? "one for each component" : written(x);
-  }
-
-  get measured() {
-    return !["degree", "unit"].includes(this.spectrum.mass);
-  }
-
-  unit(power) {
-    return this.measured ? unitOf(this.data.header.unit, power) : "no unit";
-  }
-
-  withUnit(x, power) {
-    return this.measured ? `${written(x)} ${unitOf(this.data.header.unit, power)}` : written(x);
-  }
-
-  lengthUnit() {
-    return this.data.header.unit || "length";
-  }
-
-  withLength(x) {
-    return `${written(x)} ${this.data.header.unit}`.trim();
-  }
-
-  lambdaLabel() {
-    return this.measured ? `λ (${this.unit(-2)})` : "λ (no unit)";
-  }
-
-  per(what) {
-    return this.measured ? `per ${this.data.header.unit ? this.unit(2) : what}` : "per degree";
   }
 
   // From a recipe to buffers.
@@ -162,21 +106,19 @@ export class App {
       this.tabled = shown;
     }
     this.bar.show(shown, recipe.range ?? [0, 1], recipe.name ?? "");
-    const style = getComputedStyle(document.documentElement);
-    const colour = (name) => tableOf(style.getPropertyValue(name).trim().slice(1));
-    const part = (bytes) => Array.from(bytes, (b) => b / 255);
-    painter.clear(part(colour("--paper")));
+    const { paper, clay } = this.theme;
+    painter.clear(paper);
     this.views = viewsOf(this, {
       colored,
       range: recipe.range ?? [0, 1],
       line: recipe.line ? 1 : 0,
       spacing: recipe.spacing ?? 0,
       checks: recipe.checks ?? 0,
-      clay: part(colour("--clay")),
+      clay,
       tint: this.data.header.planar ? 0 : 0.85,
       wire: this.state.wire,
       marked: recipe.marked ? this.marked : -1,
-      size: 11 * Math.min(window.devicePixelRatio || 1, 2),
+      size: 11 * this.ratio,
     });
     for (const view of this.views) painter.draw(view);
   }
@@ -196,15 +138,29 @@ export class App {
     return matrixOf(camera, aspect);
   }
 
-  resize() {
-    const { canvas } = this;
-    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+  // Pixels of the picture for one of the page.
+  get ratio() {
+    return Math.min(window.devicePixelRatio || 1, 2) * (this.coarse ? COARSE : 1);
+  }
+
+  // Follow the page; while pictures that take long follow each other, they are coarser.
+  resize(now) {
+    const { canvas, ratio } = this;
+    this.coarse = this.pace > SLOW && now !== undefined;
+    clearTimeout(this.settling);
+    if (this.coarse) this.settling = setTimeout(() => this.settle(), 2 * CALM);
     const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
     const height = Math.max(1, Math.round(canvas.clientHeight * ratio));
     if (canvas.width !== width || canvas.height !== height) {
       canvas.width = width;
       canvas.height = height;
     }
+  }
+
+  settle() {
+    this.pace = 0;
+    this.shown = null;
+    this.redraw();
   }
 
   // The loop: a frame is drawn when something changed, or something moves.
@@ -236,7 +192,10 @@ export class App {
       this.stale = true;
     }
     const fresh = this.stale;
-    this.resize();
+    const gap = now - (this.shown ?? now);
+    this.shown = now;
+    if (gap < 1000) this.pace = 0.7 * this.pace + 0.3 * gap;
+    this.resize(now);
     this.draw();
     if (fresh) this.panel.update();
     if (this.step) this.redraw();
@@ -270,9 +229,14 @@ export class App {
     this.redraw();
   }
 
-  toggleTheme() {
-    document.documentElement.classList.toggle("dark");
-    this.panel.update();
+  // Colours of the style sheet, read once, since asking for them takes time.
+  useTheme(dark = document.documentElement.classList.contains("dark")) {
+    document.documentElement.classList.toggle("dark", dark);
+    const style = getComputedStyle(document.documentElement);
+    const part = (name) =>
+      Array.from(tableOf(style.getPropertyValue(name).trim().slice(1)), (b) => b / 255);
+    this.theme = { paper: part("--paper"), clay: part("--clay") };
+    this.panel?.update();
     this.redraw();
   }
 

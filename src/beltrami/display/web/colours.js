@@ -10,10 +10,10 @@ export function tableOf(text) {
   return bytes;
 }
 
-// The map of a function: diverging if 0 is inside of its range, unless one was chosen.
+// The map of a function: diverging if its range is symmetric around 0, unless one was chosen.
 export function chosenMap(choice, [low, high]) {
   if (choice !== "auto") return choice;
-  return low < 0 && high > 0 ? "diverging" : "sequential";
+  return low < 0 && Math.abs(low + high) < 1e-6 * high ? "diverging" : "sequential";
 }
 
 export class ColourBar {

@@ -75,3 +75,12 @@ export function bindTexture(gl, target, unit, made) {
   gl.activeTexture(gl.TEXTURE0 + unit);
   gl.bindTexture(target, made);
 }
+
+// Graphics without a card: smooth edges would cost half of the speed.
+export function isSoftware() {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const told = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = told ? gl.getParameter(told.UNMASKED_RENDERER_WEBGL) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}

@@ -41,10 +41,12 @@ export function lookControls(app) {
     { class: "buttons" },
     button({ id: "reset", label: "Reset view", press: () => app.resetCamera() }),
     button({ id: "screenshot", label: "Save picture", press: () => savePicture(app) }),
-    button({ id: "theme", label: "Dark or light", press: () => app.toggleTheme() }),
+    button({ id: "theme", label: "Dark or light", press: () => app.useTheme(!isDark()) }),
   );
   return [map.node, wire.node, azimuth.node, elevation.node, buttons];
 }
+
+const isDark = () => document.documentElement.classList.contains("dark");
 
 export function laplacianChoice(app) {
   const words = {

@@ -120,10 +120,7 @@ async function start() {
       reset: () => app.resetCamera(),
     });
     new ResizeObserver(() => app.redraw()).observe(canvas);
-    dark.addEventListener("change", () => {
-      document.documentElement.classList.toggle("dark", dark.matches);
-      app.changed();
-    });
+    dark.addEventListener("change", () => app.useTheme(dark.matches));
     open(app, app.panels[0]);
     waiting.hidden = true;
     window.beltrami = exposed(app);

@@ -47,7 +47,7 @@ export function regularizePanel(app) {
     state,
     nodes: [
       words("Of all functions g, the one that is near to f and has little energy: a sum of squares."),
-      formula("min_g ‖f − g‖_B^2 + t 〈Lg, g〉"),
+      formula("min_g ‖f − g‖_B^2 + t ⟨Lg, g⟩"),
       formula("g = Σ_i f̂_i φ_i / (1 + t λ_i)"),
       choice.node,
       weight.node,
@@ -86,7 +86,7 @@ export function regularizePanel(app) {
       const at = (t) => regularizerTerms(eigenvalues, source.coefficients, tikhonov(t), source.outside);
       const { far, rough } = at(state.weight);
       told.set("‖f − g‖²", app.written(far));
-      told.set("〈Lg, g〉", app.written(rough));
+      told.set("⟨Lg, g⟩", app.written(rough));
       told.set("The sum", app.written(far + state.weight * rough));
       const [low, high] = limits();
       const times = Array.from({ length: 81 }, (_, i) => low * (high / low) ** (i / 80));

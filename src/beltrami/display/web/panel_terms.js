@@ -7,7 +7,7 @@ import { firstTerms, product } from "./spectral.js";
 import { written } from "./ticks.js";
 
 export function termsPanel(app) {
-  const state = { m: Math.min(12, app.k), playing: false, part: 0 };
+  const state = { m: Math.min(24, app.k), playing: false, part: 0 };
   const plot = new Plot("Error of the shape over the number of terms");
   const told = readings();
   const terms = slider({
@@ -64,7 +64,7 @@ export function termsPanel(app) {
       const { decay, total } = app.spectrum;
       const size = Math.sqrt(total);
       const floor = Math.max(decay[app.k], decay[0] * 1e-4);
-      told.set("Error ‖x − x_M‖ / ‖x‖".replace("_M", "ₘ"), `${written((100 * decay[state.m]) / (decay[0] || 1))} %`);
+      told.set("Error beside the size", `${written((100 * decay[state.m]) / (decay[0] || 1))} %`);
       told.set("Root mean square distance", app.withLength(decay[state.m] / size));
       told.set("Numbers kept", `${3 * state.m} instead of ${3 * app.data.n}`);
       plot.draw({

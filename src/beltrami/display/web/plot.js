@@ -39,9 +39,9 @@ export class Plot {
     const pen = this.canvas.getContext("2d");
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, width, height);
-    const style = getComputedStyle(this.canvas);
+    const style = getComputedStyle(document.documentElement);
     this.ink = (name) => style.getPropertyValue(`--${name}`).trim();
-    pen.font = `11px ${style.fontFamily}`;
+    pen.font = "11px system-ui, sans-serif";
     const { x, y } = contents;
     this.x = scale(x.low, x.high, x.log);
     this.y = scale(y.low, y.high, y.log);

@@ -43,7 +43,10 @@ export function atPoint(app, coefficients, factor) {
 // Between which values h(L) f is shown: a point falls with time, other functions keep the scale.
 export function rangeOf(app, source, factor) {
   if (source.point) return [0, atPoint(app, source.coefficients, factor) || 1];
-  return source.low < source.high ? [source.low, source.high] : [source.low - 1, source.low + 1];
+  const { low, high } = source;
+  if (!(low < high)) return [low - 1, low + 1];
+  const top = Math.max(-low, high);
+  return low < 0 && Math.min(-low, high) > 0.4 * top ? [-top, top] : [low, high];
 }
 
 // Stems of |f̂| beside a curve h: both over λ.
