@@ -145,8 +145,9 @@ export class App extends Quantities {
 
   // Follow the page; while pictures that take long follow each other, they are coarser.
   resize(now) {
-    const { canvas, ratio } = this;
+    const { canvas } = this;
     this.coarse = this.pace > SLOW && now !== undefined;
+    const { ratio } = this;
     clearTimeout(this.settling);
     if (this.coarse) this.settling = setTimeout(() => this.settle(), 2 * CALM);
     const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
@@ -167,6 +168,7 @@ export class App extends Quantities {
 
   changed() {
     this.stale = true;
+    this.untold = true;
     this.redraw();
   }
 
@@ -190,8 +192,10 @@ export class App extends Quantities {
       this.before = now;
       this.step(seconds);
       this.stale = true;
+      this.untold = true;
     }
-    const fresh = this.stale;
+    const fresh = this.untold;
+    this.untold = false;
     const gap = now - (this.shown ?? now);
     this.shown = now;
     if (gap < 1000) this.pace = 0.7 * this.pace + 0.3 * gap;

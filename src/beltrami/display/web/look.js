@@ -67,6 +67,7 @@ export function laplacianChoice(app) {
 
 // The picture with its colour bar and title, as PNG.
 export function pictureOf(app) {
+  app.resize(); // as fine as can be, even while it moves
   app.draw();
   const { canvas } = app;
   const picture = document.createElement("canvas");

@@ -62,9 +62,9 @@ function buildTabs(app) {
   });
 }
 
-function choose(app, x, y) {
+function choose(app, x, y, anyway = false) {
   if (!app.panel.picks) return;
-  const vertex = vertexAt(app, x, y);
+  const vertex = vertexAt(app, x, y, anyway);
   if (vertex < 0) return;
   app.marked = vertex;
   app.source = "point";
@@ -115,7 +115,7 @@ async function start() {
       tap: (x, y) => choose(app, x, y),
       middle() {
         const box = canvas.getBoundingClientRect();
-        choose(app, box.left + box.width / 2, box.top + box.height / 2);
+        choose(app, box.left + box.width / 2, box.top + box.height / 2, true);
       },
       reset: () => app.resetCamera(),
     });

@@ -115,18 +115,16 @@ export function comparisonMeshes(app) {
   });
 }
 
-// The vertex nearest to a place of the page: of the face there, the corner that appears nearest.
-export function vertexAt(app, clientX, clientY) {
+// The vertex nearest to a place of the page: of the face there, the corner that appears nearest;
+// -1 where there is no face, or, if `anyway`, the vertex that appears nearest.
+export function vertexAt(app, clientX, clientY, anyway = false) {
   const { canvas, gl, painter, data } = app;
   const bounds = canvas.getBoundingClientRect();
   const x = ((clientX - bounds.left) / bounds.width) * gl.drawingBufferWidth;
   const y = (1 - (clientY - bounds.top) / bounds.height) * gl.drawingBufferHeight;
-  const inside = ({ box: [left, bottom, width, height] }) =>
-    x >= left && x < left + width && y >= bottom && y < bottom + height;
-  const view = app.views?.find(inside);
-  if (!view || view.mesh !== app.mesh) return -1;
+  const [view] = app.views;
   const corner = painter.pick(view, Math.floor(x), Math.floor(y));
-  if (corner < 0) return -1;
+  if (corner < 0 && !anyway) return -1;
   const places = readPlaces(gl, app.surface);
   const [left, bottom, width, height] = view.box;
   const away = (v) => {
@@ -134,10 +132,15 @@ export function vertexAt(app, clientX, clientY) {
     const [px, py] = projected(view.lens.matrix, place);
     return Math.hypot(((px + 1) / 2) * width + left - x, ((py + 1) / 2) * height + bottom - y);
   };
-  const near = new Set([corner]);
-  for (let e = 0; e < data.edges.length; e += 2) {
-    if (data.edges[e] === corner) near.add(data.edges[e + 1]);
-    if (data.edges[e + 1] === corner) near.add(data.edges[e]);
-  }
+  const near = corner < 0 ? data.numbers.keys() : neighbours(data.edges, corner);
   return [...near].reduce((best, v) => (away(v) < away(best) ? v : best));
+}
+
+function neighbours(edges, vertex) {
+  const found = [vertex];
+  for (let e = 0; e < edges.length; e += 2) {
+    if (edges[e] === vertex) found.push(edges[e + 1]);
+    if (edges[e + 1] === vertex) found.push(edges[e]);
+  }
+  return found;
 }
