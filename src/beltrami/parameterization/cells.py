@@ -76,7 +76,7 @@ def hanging_together(labels: Integers, near: Neighbours) -> Integers:
     m = len(labels)
     piece = component_labels(near.pairs[near.within(labels)], m)
     count = int(piece.max()) + 1
-    area = np.bincount(piece, near.areas, count)
+    area = np.bincount(piece, near.areas, count).astype(np.float64)
     owner = np.empty(count, np.int64)
     owner[piece] = labels
     kept = np.zeros(count, np.bool_)
@@ -97,7 +97,7 @@ def hanging_together(labels: Integers, near: Neighbours) -> Integers:
             axis=0,
             return_inverse=True,
         )
-        common = np.bincount(turn.ravel(), border[open_ways], len(keys))
+        common = np.bincount(turn.ravel(), border[open_ways], len(keys)).astype(np.float64)
         longest = _largest(keys[:, 0], common)
         cell[keys[longest, 0]] = keys[longest, 1]
     return cell[piece]
