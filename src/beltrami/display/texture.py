@@ -67,14 +67,22 @@ def make_texture(mesh: Mesh, picture: Picture) -> Texture:
         check_name("texture", picture, PATTERNS)
         known = uv[np.isfinite(uv).all(axis=2)]
         low, extent = known.min(axis=0), float(np.ptp(known, axis=0).max())
-        return Texture((uv - low) / (extent or 1.0) * (SQUARES / 2), *_halves(_checkerboard()))
+        tile = checkerboard(_TILE, 2)
+        return Texture((uv - low) / (extent or 1.0) * (SQUARES / 2), *_halves(tile))
     return Texture(np.asarray(uv), *_halves(as_picture(picture)))
 
 
-def _checkerboard() -> Floats:
-    """Return a tile of two by two squares."""
-    half = np.arange(_TILE) < _TILE // 2
-    return np.where((half[:, None] ^ half)[..., None], np.array(_DARK), np.array(_LIGHT))
+def checkerboard(size: int = 1024, squares: int = SQUARES) -> Floats:
+    """Return a picture (size, size, 3) of squares in two colours.
+
+    Examples
+    --------
+    >>> board = checkerboard(4, 2)
+    >>> bool((board[0, 0] == board[2, 2]).all()), bool((board[0, 0] == board[0, 2]).any())
+    (True, False)
+    """
+    odd = np.arange(size) * squares // size % 2 == 1
+    return np.where((odd[:, None] ^ odd)[..., None], np.array(_DARK), np.array(_LIGHT))
 
 
 def _halves(picture: Floats) -> tuple[NDArray[np.float32], Integers]:

@@ -20,6 +20,9 @@ from beltrami.parameterization.parameterization import Parameterization, certifi
 from beltrami.parameterization.parameterize import parameterize
 from beltrami.parameterization.texture_atlas import TextureAtlas
 
+_FILL = 0.35  # of the square, at least: for the size of a texel before charts are packed
+_APART = 4.0  # gaps in space that are far apart
+_PIECES = 10_000  # of a boundary edge, at most
 _EXACT = 2.0**24  # multiples of its inverse in [0, 1] are exact in single precision
 
 
@@ -72,7 +75,8 @@ def atlas(
         Of ``parameterize``: up to so many cuts into a chart before it is cut in two.
     size, padding
         Texels along a side of the square, and texels kept free around each chart, so that
-        filters do not reach from one to another.
+        filters do not reach from one to another. A chart with parts that would come nearer to
+        each other than twice the padding is cut, too.
     strict
         Raise if the result is not a bijection; False returns it all the same, and says so.
     progress
@@ -112,6 +116,7 @@ def atlas(
     whole("padding", padding, least=0, most=size // 4)
     first = segment_into_disks(mesh, count, method=cells).labels
     apart = cut_along(mesh, np.zeros(mesh.topology.n_edges, np.bool_))
+    gap = 2 * padding * np.sqrt(mesh.area / _FILL) / size
     charts: list[_Chart] = []
     waiting = [np.flatnonzero(first == cell) for cell in range(int(first.max()) + 1)]
     mapped = 0
@@ -122,8 +127,8 @@ def atlas(
         number, corners = np.unique(apart.mesh.faces[faces], return_inverse=True)
         part = Mesh(apart.mesh.vertices[number], corners.reshape(-1, 3))
         found = parameterize(part, method, seams=seams, strict=False)
-        energy = found.distortion.symmetric_dirichlet
-        if len(faces) == 1 or (found.is_bijective and energy <= max_distortion):
+        good = found.is_bijective and found.distortion.symmetric_dirichlet <= max_distortion
+        if len(faces) == 1 or (good and not _comes_near_itself(found, gap)):
             charts.append(_Chart(faces, number, found))
             mapped += len(faces)
         else:
@@ -140,6 +145,31 @@ def _halves(part: Mesh) -> Integers:
         return labels
     near = Neighbours.of(part)
     return into_disks(halved(labels, near, np.ones(1, np.bool_)), part.topology, near)[0]
+
+
+def _comes_near_itself(found: Parameterization, gap: float) -> bool:
+    """Whether parts of the boundary that are far apart on the surface nearly meet in the plane.
+
+    A filter would mix their texels. Both sides of a seam may be near to each other: they are the
+    same points.
+    """
+    if gap == 0:
+        return False
+    from scipy.spatial import cKDTree  # slow to load
+
+    edges = found.mesh.topology.boundary_edges
+    a, b = (found.uv[edges[:, end]] / found.distortion.scale for end in (0, 1))
+    pieces = np.ceil(np.linalg.norm(b - a, axis=1) / (gap / 2)).astype(np.int64)
+    pieces = np.clip(pieces, 1, _PIECES)
+    edge = np.repeat(np.arange(len(edges)), pieces)
+    turn = np.arange(len(edge)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    t = (turn / pieces[edge])[:, None]
+    flat = a[edge] + t * (b - a)[edge]
+    x, y = (found.mesh.vertices[edges[:, end]] for end in (0, 1))
+    there = x[edge] + t * (y - x)[edge]
+    pairs = cKDTree(flat).query_pairs(gap, output_type="ndarray")
+    far = np.linalg.norm(there[pairs[:, 0]] - there[pairs[:, 1]], axis=1) > _APART * gap
+    return bool(far.any())
 
 
 def _assembled(
