@@ -113,9 +113,8 @@ def _distorted(stage: Stage, disks: dict[str, Parameterization]) -> Figure:
 def at_vertices(psi: Parameterization) -> Floats:
     """Return the logarithm of the energy, in the mean over the faces around each vertex."""
     energy = np.log10(np.clip(psi.distortion.energy, 1.0, 1e12))
-    faces, areas = psi.mesh.faces.ravel(), np.repeat(psi.distortion.areas, 3)
-    total = np.bincount(faces, areas * np.repeat(energy, 3), psi.mesh.n_vertices)
-    return np.asarray(total / np.bincount(faces, areas, psi.mesh.n_vertices))
+    around, areas = psi.mesh.topology.vertex_faces, psi.distortion.areas
+    return np.asarray((around @ (areas * energy)) / (around @ areas))
 
 
 def _charts(stage: Stage, found: TextureAtlas) -> tuple[Figure, Figure]:
