@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 
-.PHONY: tour test test-heavy test-browser docs-map lint bench clean
+.PHONY: tour test test-heavy test-browser test-neighbours docs docs-map lint bench clean
 
 $(VENV)/.installed: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -30,6 +30,12 @@ test-heavy: $(VENV)/.installed  ## fuzzing at length, millions of vertices
 test-browser: $(VENV)/.installed  ## the tour's index page in a real Chromium
 	$(BIN)/python -m pytest -m browser
 
+test-neighbours:  ## meshes there and back through pyvista, open3d and polyscope: half a gigabyte
+	$(PYTHON) -m venv .venv-neighbours
+	.venv-neighbours/bin/python -m pip install --quiet --upgrade "pip>=25.1"
+	.venv-neighbours/bin/python -m pip install --quiet --editable ".[all,view]" --group neighbours
+	.venv-neighbours/bin/python -m pytest -p no:dash tests/mesh/test_neighbours.py  # open3d brings dash
+
 docs-map:  ## docs/chapter-map.md, from the markers in the code and in the tests
 	$(PYTHON) docs/chapter_map.py
 
@@ -41,4 +47,4 @@ bench:  ## against the peers, in an environment of their own; writes BENCHMARKS.
 	.venv-bench/bin/python -m benchmarks
 
 clean:
-	rm -rf $(VENV) .venv-bench tour dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) .venv-bench .venv-neighbours tour site dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -121,8 +121,13 @@ class Mesh(Frozen):
         return Mesh(self.vertices, self.topology, {**self.vertex_data, **functions}, self.corner_uv)
 
     def to(self, target: str) -> Any:
-        """Return this mesh as an object of "trimesh", "pyvista", "meshio", "open3d" or "arrays"."""
-        return export(self.vertices, self.faces, target)
+        """Return this mesh as an object of another library, in order; ``as_mesh`` is the way back.
+
+        "trimesh", "pyvista" and "meshio" take ``vertex_data`` along, "open3d" (its newer kind of
+        mesh) and "polyscope" (registered as "beltrami mesh") ``corner_uv`` too, "arrays" neither.
+        See ``mesh.export``.
+        """
+        return export(self, target)
 
     # ---------------------------------------------------------------- topology
 
