@@ -89,7 +89,8 @@ def _data_of(source: Any) -> Mapping[str, Any]:
 def _of_trimesh(source: Any) -> Mesh:
     faces = np.asarray(source.faces)
     data = dict(getattr(source, "vertex_attributes", {}))
-    visual, uv = getattr(source, "visual", None), None
+    visual: Any = getattr(source, "visual", None)
+    uv = None
     kind = getattr(visual, "kind", None)
     if kind == "vertex":
         data.setdefault("color", visual.vertex_colors)
