@@ -36,6 +36,10 @@ test-neighbours:  ## meshes there and back through pyvista, open3d and polyscope
 	.venv-neighbours/bin/python -m pip install --quiet --editable ".[all,view]" --group neighbours
 	.venv-neighbours/bin/python -m pytest -p no:dash tests/mesh/test_neighbours.py  # open3d brings dash
 
+docs: $(VENV)/.installed  ## the site, in site/; a warning is an error
+	$(BIN)/python -m pip install --quiet --group docs
+	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet docs site
+
 docs-map:  ## docs/chapter-map.md, from the markers in the code and in the tests
 	$(PYTHON) docs/chapter_map.py
 

@@ -1,0 +1,22 @@
+"""Words in the place of a type, such as the n of an (n, 3) array, are no links."""
+
+from docutils import nodes
+from sphinx.addnodes import pending_xref
+
+import beltrami
+
+_KNOWN = {name.rpartition(".")[2] for name in beltrami.__all__}
+
+
+def drop(_app, tree):
+    """Turn links to what is no public name into text."""
+    for link in list(tree.findall(pending_xref)):
+        if link.get("refdomain") != "py" or link["reftarget"].rpartition(".")[2] in _KNOWN:
+            continue
+        link.replace_self(nodes.inline("", "", *link.children))
+
+
+def setup(app):
+    """Look at each page after it is read."""
+    app.connect("doctree-read", drop)
+    return {"parallel_read_safe": True}

@@ -1,0 +1,125 @@
+"""The API: a page for each room, with all public names; docstrings made fit for Sphinx."""
+
+import importlib
+import re
+from pathlib import Path
+
+import beltrami
+from beltrami import errors, shapes
+from beltrami.spectrum import kernels
+
+ROOMS = {
+    "mesh": "Meshes",
+    "shapes": "Shapes",
+    "io": "Files",
+    "operators": "Operators",
+    "solvers": "Solvers",
+    "spectrum": "Spectrum",
+    "kernels": "Kernels of filters",
+    "diffusion": "Diffusion",
+    "geodesics": "Geodesics",
+    "parameterization": "Maps to the plane",
+    "compression": "Compression",
+    "grids": "Grids",
+    "surfaces": "Parametric surfaces",
+    "display": "Pictures",
+    "errors": "Errors",
+}
+_MODULES = {"shapes": shapes, "kernels": kernels, "errors": errors}
+_CODE = re.compile(r"(``.*?``|:\w+:`[^`]*`)", re.DOTALL)
+
+
+def names_of(room: str) -> list[str]:
+    """Return the public names of a room, as directives want them: module and name."""
+    if room in _MODULES:
+        module = _MODULES[room]
+        public = getattr(module, "__all__", None) or [
+            name
+            for name, value in vars(module).items()
+            if getattr(value, "__module__", "") == module.__name__ and not name.startswith("_")
+        ]
+        return sorted(f"{module.__name__}.{name}" for name in public)
+    home = beltrami._HOME
+    return sorted(
+        (f"beltrami.{name}" for name, place in home.items() if place.split(".")[0] == room),
+        key=str.lower,
+    )
+
+
+def resolve(name: str):
+    """Return the object of a dotted name."""
+    module, _, last = name.rpartition(".")
+    return getattr(importlib.import_module(module), last)
+
+
+def summary(name: str) -> str:
+    """Return the first sentence of a docstring."""
+    text = (resolve(name).__doc__ or "").strip().split("\n\n")[0].replace("\n", " ")
+    return re.sub(r"\s+", " ", text)
+
+
+def _page(room: str, title: str) -> str:
+    names = names_of(room)
+    module = importlib.import_module(
+        _MODULES[room].__name__ if room in _MODULES else f"beltrami.{room}"
+    )
+    lines = [title, "=" * len(title), "", escape(module.__doc__ or "").strip(), ""]
+    for name in names:
+        thing = resolve(name)
+        kind = "autoclass" if isinstance(thing, type) else "autofunction"
+        if not callable(thing):
+            kind = "autodata"
+        shown = name.rpartition(".")[2]
+        lines += [shown, "-" * len(shown), "", f".. {kind}:: {name}"]
+        if kind == "autoclass":
+            lines += ["   :members:", "   :inherited-members: Exception"]
+        lines += [""]
+    return "\n".join(lines)
+
+
+def _index() -> str:
+    lines = [
+        "API",
+        "===",
+        "",
+        "Every public name, by room. `ARCHITECTURE.md` says which room may",
+        "use which; names are reached from the package itself: ``bt.laplacian``.",
+        "",
+    ]
+    lines += [".. toctree::", "   :maxdepth: 2", ""]
+    lines += [f"   {room}" for room in ROOMS] + [""]
+    return "\n".join(lines)
+
+
+def escape(text: str) -> str:
+    """Escape what prose means and reStructuredText reads otherwise: bars, stars, underscores."""
+    parts = _CODE.split(text)
+    prose = (
+        re.sub(r"([|*])", r"\\\1", part) if i % 2 == 0 else part for i, part in enumerate(parts)
+    )
+    return re.sub(r"(\w)_(?=[\s,.;:)\]|]|$)", r"\1\\_", "".join(prose))
+
+
+def process(_app, _what, _name, _thing, _options, lines):
+    """Escape the paragraphs of a docstring that are no examples."""
+    paragraphs = "\n".join(lines).split("\n\n")
+    escaped = [text if ">>>" in text else escape(text) for text in paragraphs]
+    lines[:] = "\n\n".join(escaped).split("\n")
+
+
+def write(app):
+    """Write the pages, if they changed."""
+    folder = Path(app.srcdir, "api")
+    folder.mkdir(exist_ok=True)
+    pages = {room: _page(room, title) for room, title in ROOMS.items()} | {"index": _index()}
+    for name, text in pages.items():
+        place = folder / f"{name}.rst"
+        if not place.exists() or place.read_text(encoding="utf-8") != text:
+            place.write_text(text, encoding="utf-8")
+
+
+def setup(app):
+    """Register: pages before they are read, docstrings before napoleon sees them."""
+    app.connect("builder-inited", write)
+    app.connect("autodoc-process-docstring", process, priority=100)
+    return {"parallel_read_safe": True}
