@@ -44,6 +44,8 @@ autodoc_typehints = "none"  # shapes and units are in the text
 autodoc_preserve_defaults = True
 napoleon_google_docstring = False
 napoleon_use_ivar = True
+napoleon_attr_annotations = False
+toc_object_entries_show_parents = "hide"
 napoleon_use_rtype = False
 
 templates_path = ["templates"]
@@ -54,14 +56,18 @@ html_css_files = ["beltrami.css"]
 html_show_sourcelink = False
 html_copy_source = False
 html_math_renderer = "mathml"  # by the browser: no script, no network
-html_sidebars = {"index": [], "viewer": []}
+html_sidebars = {page: [] for page in ("index", "start", "viewer", "gallery")}
 html_theme_options = {
     "logo": {"text": "beltrami"},
     "show_prev_next": False,
     "navigation_with_keys": False,
     "show_toc_level": 2,
     "navbar_align": "left",
-    "secondary_sidebar_items": ["page-toc"],
+    "secondary_sidebar_items": {
+        "**": ["page-toc"],
+        "chapter-map": [],  # wide tables
+        "migration/*": [],
+    },
     "footer_start": ["copyright"],
     "footer_end": [],
     "pygments_light_style": "friendly",

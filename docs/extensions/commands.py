@@ -16,7 +16,7 @@ names it), 2 for usage.
 
 
 def _help(*words: str) -> str:
-    plain = {"COLUMNS": "92", "TERM": "dumb", "NO_COLOR": "1", "TERMINAL_WIDTH": "92"}
+    plain = {"COLUMNS": "84", "TERM": "dumb", "NO_COLOR": "1", "TERMINAL_WIDTH": "84"}
     done = CliRunner().invoke(program, [*words, "--help"], env=plain, prog_name="beltrami")
     if done.exit_code:
         raise RuntimeError(done.output)

@@ -27,6 +27,7 @@ ROOMS = {
 }
 _MODULES = {"shapes": shapes, "kernels": kernels, "errors": errors}
 _CODE = re.compile(r"(``.*?``|:\w+:`[^`]*`)", re.DOTALL)
+_ITEMS = "Chapter items:"
 
 
 def names_of(room: str) -> list[str]:
@@ -69,8 +70,7 @@ def _page(room: str, title: str) -> str:
         kind = "autoclass" if isinstance(thing, type) else "autofunction"
         if not callable(thing):
             kind = "autodata"
-        shown = name.rpartition(".")[2]
-        lines += [shown, "-" * len(shown), "", f".. {kind}:: {name}"]
+        lines += [f".. {kind}:: {name}"]
         if kind == "autoclass":
             lines += ["   :members:", "   :inherited-members: Exception"]
         lines += [""]
@@ -104,7 +104,8 @@ def process(_app, _what, _name, _thing, _options, lines):
     """Escape the paragraphs of a docstring that are no examples."""
     paragraphs = "\n".join(lines).split("\n\n")
     escaped = [text if ">>>" in text else escape(text) for text in paragraphs]
-    lines[:] = "\n\n".join(escaped).split("\n")
+    text = "\n\n".join(escaped).replace(_ITEMS, f":doc:`{_ITEMS[:-1]} <../chapter-map>`:")
+    lines[:] = text.split("\n")
 
 
 def write(app):
