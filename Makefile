@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 
-.PHONY: tour test test-heavy test-browser test-neighbours docs docs-map lint bench clean
+.PHONY: tour test test-heavy test-browser test-neighbours docs docs-outputs docs-map lint bench bench-large clean
 
 $(VENV)/.installed: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -40,6 +40,9 @@ docs: $(VENV)/.installed  ## the site, in site/; a warning is an error
 	$(BIN)/python -m pip install --quiet --group docs
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet docs site
 
+docs-outputs: $(VENV)/.installed  ## what the code on the pages prints, as it stands below it
+	$(BIN)/python docs/outputs.py
+
 docs-map:  ## docs/chapter-map.md, from the markers in the code and in the tests
 	$(PYTHON) docs/chapter_map.py
 
@@ -49,6 +52,9 @@ bench:  ## against the peers, in an environment of their own; writes BENCHMARKS.
 	.venv-bench/bin/python -m pip install --quiet --editable ".[all]" --group bench
 	-.venv-bench/bin/python -m pip install --quiet --group bench-cholmod  # Debian: libsuitesparse-dev
 	.venv-bench/bin/python -m benchmarks
+
+bench-large:  ## solver and spectra to 2.1M vertices, after `make bench`; writes BENCHMARKS-LARGE.md
+	.venv-bench/bin/python -m benchmarks --large
 
 clean:
 	rm -rf $(VENV) .venv-bench .venv-neighbours tour site dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -63,11 +63,10 @@ html_theme_options = {
     "navigation_with_keys": False,
     "show_toc_level": 2,
     "navbar_align": "left",
-    "secondary_sidebar_items": {
-        "**": ["page-toc"],
-        "chapter-map": [],  # wide tables
-        "migration/*": [],
-    },
+    "secondary_sidebar_items": dict.fromkeys(  # not beside wide tables
+        ("start", "gallery", "commands", "conventions", "errata", "format", "howto/*", "api/*"),
+        ["page-toc"],
+    ),
     "footer_start": ["copyright"],
     "footer_end": [],
     "pygments_light_style": "friendly",

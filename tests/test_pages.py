@@ -2,24 +2,15 @@
 
 import re
 import runpy
-import shlex
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
 import beltrami as bt
-from beltrami.cli.app import app
 
 DOCS = Path(__file__).parents[1] / "docs"
-PAGES = ("index", "start", *sorted(f"howto/{p.stem}" for p in (DOCS / "howto").glob("*.md")))
+OUTPUTS = runpy.run_path(str(DOCS / "outputs.py"))
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?")
-
-
-def blocks(page):
-    """The fenced blocks of a page: (kind, text)."""
-    text = (DOCS / f"{page}.md").read_text(encoding="utf-8")
-    return re.findall(r"^```(\w+)\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
 
 
 def words(text):
@@ -34,23 +25,26 @@ def agree(said, shown):
     return one == other and len(x) == len(y) and all(near)
 
 
-@pytest.mark.parametrize("page", PAGES)
-def test_a_page_runs_and_prints_what_it_shows(page, tmp_path, monkeypatch, capsys):
+@pytest.mark.parametrize("page", OUTPUTS["PAGES"])
+def test_a_page_runs_and_prints_what_it_shows(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    scope, said = {}, ""
-    for kind, text in blocks(page):
-        if kind == "python":
-            assert not said.strip(), f"{page} does not show that it prints {said}"
-            exec(compile(text, f"{page}.md", "exec"), scope)  # noqa: S102
-            said = capsys.readouterr().out
-        elif kind == "text":
-            assert agree(said, text), f"{page} shows\n{text}\nand a run says\n{said}"
-            said = ""
-        elif kind == "console" and "beltrami tour" not in text:  # tests of its own
-            for command in re.findall(r"^\$ beltrami (.*)$", text, re.MULTILINE):
-                done = CliRunner().invoke(app, shlex.split(command))
-                assert done.exit_code == 0, (command, done.output)
-    assert not said.strip()
+    shown = (DOCS / f"{page}.md").read_text(encoding="utf-8")
+    said = OUTPUTS["refreshed"](page, shown)
+    pairs = [[block for kind, block in OUTPUTS["BLOCK"].findall(text) if kind == "text"]
+             for text in (said, shown)]  # fmt: skip
+    assert len(pairs[0]) == len(pairs[1]), "make docs-outputs"
+    for run, page_says in zip(*pairs, strict=True):
+        assert agree(run, page_says), f"the page shows\n{page_says}\nand a run says\n{run}"
+
+
+def test_what_a_page_prints_is_put_below_its_code(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    page = "a\n\n```python\nprint(1 + 1)\n```\n\nb\n\n```text\nkept\n```\n"
+    fresh = OUTPUTS["refreshed"]("p", page.replace("b\n\n", ""))
+    assert fresh == "a\n\n```python\nprint(1 + 1)\n```\n\n```text\n2\n```\n"
+    assert OUTPUTS["refreshed"]("p", fresh) == fresh
+    bare = OUTPUTS["refreshed"]("p", "```python\nprint(3)\n```\n\nend\n")
+    assert bare == "```python\nprint(3)\n```\n\n```text\n3\n```\n\nend\n"
 
 
 def test_the_comparison_sees_what_is_wrong():
