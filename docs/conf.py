@@ -49,6 +49,9 @@ toc_object_entries_show_parents = "hide"
 napoleon_use_rtype = False
 
 templates_path = ["templates"]
+_WITH_CONTENTS = (  # no contents beside wide tables
+    "start", "gallery", "commands", "conventions", "errata", "format", "howto/*", "api/*",
+)  # fmt: skip
 html_theme = "pydata_sphinx_theme"
 html_title = "beltrami"
 html_static_path = ["static"]
@@ -63,10 +66,7 @@ html_theme_options = {
     "navigation_with_keys": False,
     "show_toc_level": 2,
     "navbar_align": "left",
-    "secondary_sidebar_items": dict.fromkeys(  # not beside wide tables
-        ("start", "gallery", "commands", "conventions", "errata", "format", "howto/*", "api/*"),
-        ["page-toc"],
-    ),
+    "secondary_sidebar_items": {page: ["page-toc"] for page in _WITH_CONTENTS},
     "footer_start": ["copyright"],
     "footer_end": [],
     "pygments_light_style": "friendly",

@@ -1,4 +1,4 @@
-"""Words in the place of a type, such as the n of an (n, 3) array, are no links."""
+"""What Sphinx makes of docstrings, mended: the n of an (n, 3) array is no link to a class."""
 
 from docutils import nodes
 from sphinx.addnodes import pending_xref
@@ -16,7 +16,15 @@ def drop(_app, tree):
         link.replace_self(nodes.inline("", "", *link.children))
 
 
+def name_attributes(_app, tree):
+    """Call the fields of an object attributes, which Sphinx calls variables."""
+    for label in list(tree.findall(nodes.field_name)):
+        if label.astext() == "Variables":
+            label.children[:] = [nodes.Text("Attributes")]
+
+
 def setup(app):
     """Look at each page after it is read."""
     app.connect("doctree-read", drop)
+    app.connect("doctree-read", name_attributes)
     return {"parallel_read_safe": True}
