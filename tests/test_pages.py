@@ -76,4 +76,5 @@ def test_the_api_has_a_place_for_every_public_name():
 def test_prose_is_escaped_and_code_is_not():
     escape = runpy.run_path(str(DOCS / "extensions" / "rooms.py"))["escape"]
     assert escape("|e|² and ``a|b`` and :math:`|x|`") == r"\|e\|² and ``a|b`` and :math:`|x|`"
+    assert escape(r"\|f\|") == r"\|f\|"  # done by hand
     assert escape("the f_ of it, x_i") == r"the f\_ of it, x_i"

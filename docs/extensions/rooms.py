@@ -94,10 +94,8 @@ def _index() -> str:
 def escape(text: str) -> str:
     """Escape what prose means and reStructuredText reads otherwise: bars, stars, underscores."""
     parts = _CODE.split(text)
-    prose = (
-        re.sub(r"([|*])", r"\\\1", part) if i % 2 == 0 else part for i, part in enumerate(parts)
-    )
-    return re.sub(r"(\w)_(?=[\s,.;:)\]|]|$)", r"\1\\_", "".join(prose))
+    parts[::2] = [re.sub(r"(?<!\\)([|*])", r"\\\1", prose) for prose in parts[::2]]
+    return re.sub(r"(\w)_(?=[\s,.;:)\]|]|$)", r"\1\\_", "".join(parts))
 
 
 def process(_app, _what, _name, _thing, _options, lines):
