@@ -1,5 +1,6 @@
 """The pages of the site are true: their code and commands run, and print what stands below them."""
 
+import ast
 import re
 import runpy
 from pathlib import Path
@@ -67,10 +68,29 @@ def test_links_of_the_site_lead_somewhere(page):
 
 def test_the_api_has_a_place_for_every_public_name():
     rooms = runpy.run_path(str(DOCS / "extensions" / "rooms.py"))
-    listed = {name for room in rooms["ROOMS"] for name in rooms["names_of"](room)}
+    listed = {name for room in rooms["rooms"]() for name in rooms["names_of"](room)}
     missing = {f"beltrami.{name}" for name in bt._HOME} - listed
     assert not missing
     assert all(rooms["resolve"](name).__doc__ for name in listed)
+
+
+def test_every_page_is_in_a_table_of_contents():
+    named = {"index"}
+    for place in DOCS.rglob("*.md"):
+        for block in re.findall(r"```\{toctree\}\n(.*?)```", place.read_text("utf-8"), re.DOTALL):
+            named |= {str((place.parent / line).resolve()) for line in block.split()}
+    made = {"gallery", "commands", "viewer-note"}  # when the site is built
+    pages = {p for p in DOCS.rglob("*.md") if p.stem not in made and "api" not in p.parts}
+    lost = {p.name for p in pages if str(p.with_suffix("").resolve()) not in named} - {"index.md"}
+    assert not lost, "name it in the toctree of docs/reference.md, or of another page"
+
+
+@pytest.mark.parametrize("path", sorted((DOCS.parent / "examples").glob("*.py")), ids=str)
+def test_every_example_is_in_the_gallery(path):
+    """The gallery runs an example as its docstring says: with a folder, or with a picture."""
+    text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8")))
+    found = re.search(rf"^python examples/{path.name} (FOLDER|\S+\.(?:png|webp|gif))$", text, re.M)
+    assert found, f"say 'python examples/{path.name} FOLDER' in a line of the docstring"
 
 
 def test_prose_is_escaped_and_code_is_not():

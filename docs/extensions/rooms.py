@@ -5,13 +5,12 @@ import re
 from pathlib import Path
 
 import beltrami
-from beltrami import errors, shapes
-from beltrami.spectrum import kernels
 
-ROOMS = {
+TITLES = {
     "mesh": "Meshes",
     "shapes": "Shapes",
     "io": "Files",
+    "datasets": "Data sets",
     "operators": "Operators",
     "solvers": "Solvers",
     "spectrum": "Spectrum",
@@ -22,29 +21,34 @@ ROOMS = {
     "compression": "Compression",
     "grids": "Grids",
     "surfaces": "Parametric surfaces",
+    "learning": "Learning",
     "display": "Pictures",
+    "batch": "Batches",
     "errors": "Errors",
-}
-_MODULES = {"shapes": shapes, "kernels": kernels, "errors": errors}
+}  # a room that is not here comes last, under its own name
 _CODE = re.compile(r"(``.*?``|:\w+:`[^`]*`)", re.DOTALL)
 _ITEMS = "Chapter items:"
 
 
+def rooms() -> dict[str, str]:
+    """Return the rooms that have public names, and the titles of their pages."""
+    there = {place.split(".")[0] for place in beltrami._HOME.values()} | set(beltrami._MODULES)
+    order = [*TITLES, *sorted(there - set(TITLES))]
+    return {room: TITLES.get(room, room.capitalize()) for room in order if room in there}
+
+
 def names_of(room: str) -> list[str]:
     """Return the public names of a room, as directives want them: module and name."""
-    if room in _MODULES:
-        module = _MODULES[room]
+    home = {f"beltrami.{n}" for n, place in beltrami._HOME.items() if place.split(".")[0] == room}
+    if room in beltrami._MODULES:
+        module = getattr(beltrami, room)
         public = getattr(module, "__all__", None) or [
             name
             for name, value in vars(module).items()
             if getattr(value, "__module__", "") == module.__name__ and not name.startswith("_")
         ]
-        return sorted(f"{module.__name__}.{name}" for name in public)
-    home = beltrami._HOME
-    return sorted(
-        (f"beltrami.{name}" for name, place in home.items() if place.split(".")[0] == room),
-        key=str.lower,
-    )
+        home |= {f"{module.__name__}.{name}" for name in public}
+    return sorted(home, key=str.lower)
 
 
 def resolve(name: str):
@@ -53,16 +57,12 @@ def resolve(name: str):
     return getattr(importlib.import_module(module), last)
 
 
-def summary(name: str) -> str:
-    """Return the first sentence of a docstring."""
-    text = (resolve(name).__doc__ or "").strip().split("\n\n")[0].replace("\n", " ")
-    return re.sub(r"\s+", " ", text)
-
-
 def _page(room: str, title: str) -> str:
     names = names_of(room)
-    module = importlib.import_module(
-        _MODULES[room].__name__ if room in _MODULES else f"beltrami.{room}"
+    module = (
+        getattr(beltrami, room)
+        if room in beltrami._MODULES
+        else importlib.import_module(f"beltrami.{room}")
     )
     lines = [title, "=" * len(title), "", escape(module.__doc__ or "").strip(), ""]
     for name in names:
@@ -87,7 +87,7 @@ def _index() -> str:
         "",
     ]
     lines += [".. toctree::", "   :maxdepth: 2", ""]
-    lines += [f"   {room}" for room in ROOMS] + [""]
+    lines += [f"   {room}" for room in rooms()] + [""]
     return "\n".join(lines)
 
 
@@ -110,7 +110,7 @@ def write(app):
     """Write the pages, if they changed."""
     folder = Path(app.srcdir, "api")
     folder.mkdir(exist_ok=True)
-    pages = {room: _page(room, title) for room, title in ROOMS.items()} | {"index": _index()}
+    pages = {room: _page(room, title) for room, title in rooms().items()} | {"index": _index()}
     for name, text in pages.items():
         place = folder / f"{name}.rst"
         if not place.exists() or place.read_text(encoding="utf-8") != text:
