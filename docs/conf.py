@@ -23,10 +23,11 @@ extensions = [
     "rooms",
     "commands",
     "gallery",
+    "card",
     "viewer",
     "source_pages",
 ]
-exclude_patterns = ["extensions", "images", "viewer-note.md", "gallery/**"]
+exclude_patterns = ["extensions", "images", "viewer-note.md", "card.md", "gallery/**"]
 
 myst_enable_extensions = ["dollarmath", "colon_fence", "attrs_block"]
 myst_heading_anchors = 4
