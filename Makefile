@@ -27,7 +27,11 @@ test: $(VENV)/.installed  ## lint, types, import rule and every unmarked test
 test-heavy: $(VENV)/.installed  ## fuzzing at length, millions of vertices
 	$(BIN)/python -m pytest -m heavy
 
-test-browser: $(VENV)/.installed  ## the tour's index page in a real Chromium
+$(VENV)/.browser: $(VENV)/.installed
+	$(BIN)/python -m pip install --quiet --group browser
+	touch $@
+
+test-browser: $(VENV)/.browser  ## the pages in a real Chromium, and their modules in node
 	$(BIN)/python -m pytest -m browser
 
 test-neighbours:  ## meshes there and back through pyvista, open3d and polyscope: half a gigabyte

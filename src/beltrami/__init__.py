@@ -39,6 +39,8 @@ if TYPE_CHECKING:
     from beltrami.diffusion.wave import wave as wave
     from beltrami.display.light import DirectionalLight as DirectionalLight
     from beltrami.display.light import SpotLight as SpotLight
+    from beltrami.display.page import Page as Page
+    from beltrami.display.page import page as page
     from beltrami.display.render import render as render
     from beltrami.display.spectrum_plot import plot_spectrum as plot_spectrum
     from beltrami.geodesics.distance import geodesic_distance as geodesic_distance
@@ -152,6 +154,7 @@ _HOME = {
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
     "NodalDomains": "spectrum.nodal_domains",
+    "Page": "display.page",
     "Parameterization": "parameterization.parameterization",
     "ParametricSurface": "surfaces.surface",
     "PointCloud": "operators.point_cloud",
@@ -207,6 +210,7 @@ _HOME = {
     "meyer_frame": "spectrum.wavelets",
     "minres": "solvers.minres",
     "nodal_domains": "spectrum.nodal_domains",
+    "page": "display.page",
     "parameterize": "parameterization.parameterize",
     "plot_spectrum": "display.spectrum_plot",
     "poisson": "diffusion.poisson",

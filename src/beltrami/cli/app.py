@@ -19,6 +19,7 @@ from beltrami.cli.geodesics import geodesics
 from beltrami.cli.heat import heat
 from beltrami.cli.info import info
 from beltrami.cli.integrate import integrate
+from beltrami.cli.page import page
 from beltrami.cli.parameterize import parameterize
 from beltrami.cli.regularize import regularize
 from beltrami.cli.render import render
@@ -56,6 +57,7 @@ for verb in (
     parameterize,
     flatten,
     render,
+    page,
     tour,
 ):
     app.command()(ending_well(verb))
