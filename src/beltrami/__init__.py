@@ -18,6 +18,8 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from beltrami._carded import register_drawer
+
 if TYPE_CHECKING:
     from beltrami import errors as errors
     from beltrami.compression.compress import compress as compress
@@ -132,6 +134,8 @@ if TYPE_CHECKING:
     from beltrami.surfaces.surface import ParametricSurface as ParametricSurface
 
 __version__ = "0.1.0"
+
+register_drawer("beltrami.display.cards")  # no room on the way there may import it
 
 _HOME = {
     "Atlas": "surfaces.atlas",
