@@ -32,7 +32,7 @@ _SEVERAL = (DATA, PREDICTED)
 # Features that a reader must know; a bit of the sixth byte each.
 FEATURES = {
     1: "the order of the vertices is kept",
-    2: "any beginning with all faces is a coarser shape",
+    2: "beginnings with all faces and first coefficients are coarser shapes",
     4: "functions are predicted",
 }
 KEEPS_ORDER, PROGRESSIVE, PREDICTS = FEATURES
