@@ -58,6 +58,7 @@ def examples():
         "five": (Mesh(rng.normal(size=(disk.n_vertices, 5)), disk.faces), {"bits": 6}),
         "smooth": (bt.shapes.cylinder(20, 12), {"bits": 6, "mode": "smooth"}),
         "blob": (bt.shapes.blob(2000), {"bits": 11}),
+        "free": (bt.shapes.blob(1200), {"bits": 6, "mode": "smooth"}),
         "spectral_blob": (bt.shapes.blob(1200), {"bits": 7, "mode": "spectral"}),
         "spectral_icosphere": (sphere, {"bits": 6, "mode": "spectral", "effort": "fast"}),
         "spectral_torus": (

@@ -39,6 +39,7 @@ def files():
         bt.compress(Mesh(plane.vertices, plane.faces[:, [0, 2, 1]]), bits=5),
         bt.compress(full, mode="spectral", keep_order=True, max_error=0.05),
         bt.compress(plane, mode="spectral", bits=6, effort="fast"),
+        bt.compress(plane, mode="smooth", bits=5),
         bt.compress(painted, bits=6, function_errors={"d": 1e-2}),
         bt.compress(Mesh(np.zeros((0, 3)), np.zeros((0, 3), int))),
     ]

@@ -9,13 +9,14 @@ import numpy as np
 from beltrami._arrays import Floats, Integers
 from beltrami._progress import Progress
 from beltrami.compression.container import GRID, SPECTRUM, Section
-from beltrami.compression.geometry import encode_positions
+from beltrami.compression.geometry import encode_freely, encode_positions
 from beltrami.compression.grid import PositionGrid, grid_for
-from beltrami.compression.smooth_grid import smooth_grid
+from beltrami.compression.numbers import surroundings
 from beltrami.compression.spectral import encode_spectrum
 
 MODES = ("auto", "grid", "smooth", "spectral")
 _COARSE = 1  # bytes for each vertex on the grid: with more the other modes do not win
+_TRIES = 3  # of steps, until the error is near the bound
 _FACTORS = (0.6, 0.9, 1.3, 1.9)  # steps of coefficients to try, in bounds of the error
 
 
@@ -50,18 +51,41 @@ def _encode(
             x, faces, _steps(x, error, bits), effort, wish.terms, error, progress
         )
         return Section(SPECTRUM, payload)
-    grid, choice = grid_for(x, error, bits), 0
     if mode == "smooth":
-        grid, choice = smooth_grid(x, faces, error, bits)
-    return Section(GRID, encode_positions(x, faces, grid, effort, choice, progress))
+        return Section(GRID, _encode_smooth(x, faces, wish, progress))
+    return Section(GRID, encode_positions(x, faces, grid_for(x, error, bits), effort, progress))
+
+
+def _encode_smooth(x: Floats, faces: Integers, wish: Wish, progress: Progress | None) -> bytes:
+    """Write positions freely, at a step for which the error is near the bound and below it."""
+    near, error = surroundings(faces, len(x)), wish.max_error
+    if error is None:
+        return encode_freely(x, near, grid_for(x, None, wish.bits), wish.effort, progress)[0]
+    found: list[bytes] = []
+    factor = 1.0
+    for _ in range(_TRIES):
+        grid = _stepping(x, error, factor)
+        data, worst = encode_freely(x, near, grid, wish.effort, progress)
+        if worst <= error:
+            found.append(data)
+        if 0.95 * error <= worst <= error or worst == 0:
+            break
+        factor *= 0.97 * error / worst
+    if not found:
+        grid = _stepping(x, error, 0.9 / (1.1 * float(np.sqrt(x.shape[1]))))
+        found.append(encode_freely(x, near, grid, wish.effort, progress)[0])
+    return min(found, key=len)
+
+
+def _stepping(x: Floats, max_error: float, factor: float) -> PositionGrid:
+    """Return a grid with the step ``factor`` times the bound."""
+    grid = grid_for(x, max_error, None)
+    step = max_error * min(factor, 4.0)
+    return PositionGrid(grid.origin, float(np.float32(step)) if grid.is_short else step)
 
 
 def _steps(x: Floats, max_error: float | None, bits: int | None) -> list[PositionGrid]:
     """Return the steps of coefficients to try, from one origin."""
-    grid = grid_for(x, max_error, bits)
     if max_error is None:
-        return [grid]
-    steps = np.array([max_error * factor for factor in _FACTORS])
-    if grid.is_short:
-        steps = steps.astype(np.float32).astype(np.float64)
-    return [PositionGrid(grid.origin, float(step)) for step in steps]
+        return [grid_for(x, None, bits)]
+    return [_stepping(x, max_error, factor) for factor in _FACTORS]

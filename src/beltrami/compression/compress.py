@@ -80,15 +80,15 @@ def compress(
         1 to 30: the grid has 2^bits points along the longest side of the bounding box. 14 if
         neither is given. A vertex moves at most half the diagonal of a cell.
     mode
-        ``"grid"``: the points of the grid. ``"smooth"``: moved from there, within their cells, to
-        where the surface is smooth; less mean error for the same bytes where cells are not small
-        beside the edges, but a vertex can be a whole diagonal of a cell off: the file says how
-        much at most. ``"spectral"``: the codec of the chapter, coefficients in the eigenvectors
-        of Laplacians that the faces alone give, rounded to multiples of the step of the grid, then
-        smoothed in the same way; the fewest bytes for a coarse shape, and any beginning of the
-        file is a coarser one (``decompress(..., partial=True)``). ``"auto"``: with ``max_error``
-        the one that takes the fewest bytes, tried where the grid takes less than a byte for each
-        vertex (with more it is the best); else ``"grid"``.
+        ``"grid"``: the points of the grid. ``"smooth"``: whole steps of the grid from where each
+        vertex is expected, then moved to where the surface is smooth; fewer bytes for the same
+        error where cells are not small beside the edges, but a vertex can be a whole diagonal of a
+        cell off: the file says how much at most. ``"spectral"``: the codec of the chapter,
+        coefficients in the eigenvectors of Laplacians that the faces alone give, rounded to
+        multiples of the step of the grid, then smoothed in the same way; few bytes for a coarse
+        shape, and any beginning of the file is a coarser one (``decompress(..., partial=True)``).
+        ``"auto"``: with ``max_error`` the one that takes the fewest bytes, tried where the grid
+        takes less than a byte for each vertex (with more it is the best); else ``"grid"``.
     terms
         With ``"spectral"``, no more than that many of the lowest frequencies of each block of at
         most 500 vertices (with the effort ``"fast"`` 250), the M of definition 21.

@@ -95,7 +95,7 @@ def describe(source: bytes | str | os.PathLike[str]) -> Contents:
         mode, terms = "spectral", head.terms
     else:
         head = read_head(by_kind[GRID].reader(path))
-        mode, terms = ("smooth" if head.choice else "grid"), None
+        mode, terms = ("smooth" if head.choice or head.is_free else "grid"), None
     return Contents(
         n,
         len(head.grid.origin),

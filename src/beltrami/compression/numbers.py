@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import Integers
+from beltrami._arrays import Floats, Integers
 from beltrami._progress import Progress, stages
 from beltrami.compression.guesses import BEST, FAST
 from beltrami.compression.neighbourhood import Neighbourhood, coding_order, look_around
@@ -71,6 +71,46 @@ def decode_numbers(
     return np.ascontiguousarray(np.concatenate(parts, axis=1))
 
 
+def encode_offsets(
+    x: Floats, near: Neighbourhood, effort: str, progress: Progress | None = None
+) -> tuple[bytes, Floats]:
+    """Return (bytes, what they decode to) of positions (n, d) in steps, within 0.6 of these."""
+    n, d = x.shape
+    data, found = b"", np.zeros((n, d))
+    for first in range(0, d, 3):
+        truth = np.zeros((n, 3))
+        truth[:, : d - first] = x[:, first : first + 3]
+        size = 9 * n + 1024
+        while True:
+            buffer, state = np.zeros(size, np.uint8), new_encoder()
+            numbers = np.zeros((n, 3), np.int64)
+            placed = _run(numbers, near, effort, state, buffer, progress, truth)
+            payload = finished(state, buffer)
+            if payload is not None:
+                break
+            size = int(state[POSITION]) + 1024
+        data += to_varints([len(payload)]) + payload
+        found[:, first : first + 3] = placed[:, : d - first]
+    return data, found
+
+
+def decode_offsets(
+    reader: Reader, shape: tuple[int, int], near: Neighbourhood, effort: str,
+    progress: Progress | None = None,
+) -> Floats:  # fmt: skip
+    """Read positions (n, d) in steps."""
+    n, d = shape
+    parts: list[Floats] = []
+    for first in range(0, d, 3):
+        buffer = readable(reader.take(reader.varint()))
+        state, numbers = new_decoder(buffer), np.zeros((n, 3), np.int64)
+        placed = _run(numbers, near, effort, state, buffer, progress, np.zeros((n, 3)))
+        if ran_dry(state, buffer):
+            raise reader.fault("fewer numbers than vertices")
+        parts.append(placed[:, : d - first])
+    return np.ascontiguousarray(np.concatenate(parts, axis=1))
+
+
 def reader_is_done(reader: Reader) -> None:
     """Raise if bytes are left."""
     left = len(reader.data) - reader.position
@@ -85,11 +125,12 @@ def _run(
     state: Table,
     buffer: NDArray[np.uint8],
     progress: Progress | None,
-) -> None:
-    """Code all numbers, block by block."""
+    truth: Floats | None = None,
+) -> Floats:
+    """Code all numbers, block by block; return the positions."""
     n = len(numbers)
     solves = _SOLVES[EFFORTS.index(effort)]
-    coder = new_coder(n, len(solves))
+    coder = new_coder(n, len(solves), np.zeros((0, 3)) if truth is None else truth)
     order = coding_order(near)
     done = 0
     for size in stages(n, progress, _BLOCK):
@@ -97,3 +138,4 @@ def _run(
         done += size
         if ran_dry(state, buffer):
             break
+    return coder.x
