@@ -15,8 +15,9 @@ from beltrami.compression.numbers import surroundings
 from beltrami.compression.spectral import encode_spectrum
 
 MODES = ("auto", "grid", "smooth", "spectral")
-_COARSE = 1  # bytes for each vertex on the grid: with more the other modes do not win
-_TRIES = 3  # of steps, until the error is near the bound
+# Bytes for each vertex in the modes before: with more the others do not win.
+_OTHERS = (("smooth", 1.0), ("spectral", 0.3))
+_TRIES = 2  # of steps, until the error is near the bound
 _FACTORS = (0.6, 0.9, 1.3, 1.9)  # steps of coefficients to try, in bounds of the error
 
 
@@ -35,10 +36,12 @@ def encode_wish(x: Floats, faces: Integers, wish: Wish, progress: Progress | Non
     """Write positions (n, d) as it is wished for; with the mode "auto" in the shortest way."""
     if wish.mode != "auto":
         return _encode(x, faces, wish, wish.mode, progress)
-    found = [_encode(x, faces, wish, "grid", progress)]
-    if wish.max_error is not None and len(found[0].payload) < _COARSE * len(x):
-        found += [_encode(x, faces, wish, mode, progress) for mode in ("smooth", "spectral")]
-    return min(found, key=lambda section: len(section.payload))
+    best = _encode(x, faces, wish, "grid", progress)
+    for mode, coarse in _OTHERS if wish.max_error is not None else ():
+        if len(best.payload) < coarse * len(x):
+            other = _encode(x, faces, wish, mode, progress)
+            best = min(best, other, key=lambda section: len(section.payload))
+    return best
 
 
 def _encode(
@@ -62,13 +65,13 @@ def _encode_smooth(x: Floats, faces: Integers, wish: Wish, progress: Progress | 
     if error is None:
         return encode_freely(x, near, grid_for(x, None, wish.bits), wish.effort, progress)[0]
     found: list[bytes] = []
-    factor = 1.0
+    factor = 0.95
     for _ in range(_TRIES):
         grid = _stepping(x, error, factor)
         data, worst = encode_freely(x, near, grid, wish.effort, progress)
         if worst <= error:
             found.append(data)
-        if 0.95 * error <= worst <= error or worst == 0:
+        if 0.9 * error <= worst <= error or worst == 0:
             break
         factor *= 0.97 * error / worst
     if not found:
