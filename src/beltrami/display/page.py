@@ -112,8 +112,8 @@ def page(
 
     Notes
     -----
-    Numbers are rounded: eigenvectors to 1/200 of their largest value or finer, such that the shape
-    is off by about 2 % of the mean edge, functions to 1/400 of
+    Numbers are rounded: eigenvectors to 1/254 of their largest value or finer, such that the shape
+    is off by about 1.5 % of the mean edge, functions to 1/508 of
     their range, positions to 0.5 % of
     the mean edge. Size: 80 bytes a vertex for 64 modes of three Laplacians. Cost: that of
     the eigenpairs, one ``parameterize`` and one ``denoise``, which takes longest.
@@ -157,7 +157,7 @@ def page(
     contents = page_contents(mesh, functions, wanted, tell)
     title = title or file.stem
     header = {"title": title, **contents.header}
-    text = page_html(title, header, contents.sections.joined()).encode()
+    text = page_html(title, header, contents.sections.packed()).encode()
     with replacing(file) as out:
         out.write(text)
     tell()
