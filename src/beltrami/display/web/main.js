@@ -120,6 +120,10 @@ async function start() {
       },
       reset: () => app.resetCamera(),
     });
+    canvas.addEventListener("webglcontextlost", () => {
+      waiting.hidden = false;
+      waiting.textContent = "The graphics card was taken away: please load the page again.";
+    });
     new ResizeObserver(() => app.redraw()).observe(canvas);
     dark.addEventListener("change", () => app.useTheme(dark.matches));
     open(app, app.panels[0]);

@@ -10,6 +10,11 @@ export function modesPanel(app) {
   const state = { i: Math.min(7, app.k - 1), line: true, lift: 0 };
   const plot = new Plot("Eigenvalues over their number");
   const told = readings();
+  const counted = new WeakMap(); // regions of the modes seen so far
+  const regions = (levels) => {
+    if (!counted.has(levels)) counted.set(levels, signDomains(levels, app.data.edges));
+    return counted.get(levels);
+  };
   const number = slider({
     id: "mode",
     label: "Eigenfunction",
@@ -78,7 +83,7 @@ export function modesPanel(app) {
       told.set("λ", app.withUnit(eigenvalues[state.i], -2));
       told.set("√λ, its frequency", app.withUnit(Math.sqrt(eigenvalues[state.i]), -1));
       const levels = app.data.levelsOf(app.spectrum)[state.i];
-      told.set("Regions of one sign", String(signDomains(levels, app.data.edges)));
+      told.set("Regions of one sign", String(regions(levels)));
       told.set("Courant: at most", String(state.i + 1));
       const curves = [{ points: [...eigenvalues].map((x, i) => [i, x]), name: "λ" }];
       if (mass !== "degree" && mass !== "unit") {

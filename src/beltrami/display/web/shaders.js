@@ -110,7 +110,7 @@ void main() {
   if (u_spacing > 0.0) {
     float level = v_value / u_spacing;
     float away = abs(fract(level + 0.5) - 0.5) / max(fwidth(level), 1e-20);
-    line = max(line, 0.55 * (1.0 - smoothstep(0.4, 1.2, away)));
+    if (abs(level) > 0.5) line = max(line, 0.55 * (1.0 - smoothstep(0.4, 1.2, away)));
   }
   colour = vec4(mix(min(paint * light, 1.0), vec3(0.05, 0.05, 0.07), line), 1.0);
 }`;
