@@ -3,11 +3,13 @@
 import { checkbox, readings, slider, words } from "./controls.js";
 import { formula } from "./formula.js";
 import { Plot } from "./plot.js";
+import { lowest } from "./spectral.js";
 import { written } from "./ticks.js";
 import { signDomains } from "./domains.js";
 
 export function modesPanel(app) {
-  const state = { i: Math.min(7, app.k - 1), line: true, lift: 0 };
+  const first = app.spectrum.eigenvalues.indexOf(lowest(app.spectrum.eigenvalues));
+  const state = { i: Math.min(Math.max(first, 0) + 6, app.k - 1), line: true, lift: 0 };
   const plot = new Plot("Eigenvalues over their number");
   const told = readings();
   const counted = new WeakMap(); // regions of the modes seen so far
