@@ -162,6 +162,13 @@ def test_the_page_opens_alone(visit, shape):
     assert np.abs(base - shape.vertices).max() < 0.006 * shape.edge_lengths.mean()
 
 
+def test_an_address_names_a_panel(visit):
+    for panel in ("wave", "plane"):
+        visit.js(f"void (location.hash = '{panel}')")
+        visit.wait()
+        assert visit.tab.get_attribute(f"#tab-{panel}", "aria-selected") == "true"
+
+
 def test_a_request_would_be_refused_and_seen(browser, file):
     visit = Visit(browser, file)
     for attempt in (

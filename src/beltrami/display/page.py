@@ -70,9 +70,9 @@ def page(
     heat and waves from a point that is clicked, the shape of the first M terms, filters drawn by
     hand, smoothing and exaggerating, the quadratic regulariser; besides a map to the plane with
     its distortion, and the mesh beside a noisy and a denoised copy. Nothing is loaded from
-    anywhere: the policy of the page forbids it. In the console of the browser
-    ``beltrami.values()`` and ``beltrami.positions()`` are the numbers behind the picture, in the
-    order ``beltrami.app.data.numbers`` of the vertices.
+    anywhere: the policy of the page forbids it. The address ``page.html#heat`` opens that panel; in
+    the console of the browser ``beltrami.values()`` and ``beltrami.positions()`` are the numbers
+    behind the picture, in the order ``beltrami.app.data.numbers`` of the vertices.
 
     Chapter items: F3.1, F3.7.
 

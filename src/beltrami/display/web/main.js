@@ -126,7 +126,10 @@ async function start() {
     });
     new ResizeObserver(() => app.redraw()).observe(canvas);
     dark.addEventListener("change", () => app.useTheme(dark.matches));
-    open(app, app.panels[0]);
+    // page.html#wave opens with waves
+    const named = () => app.panels.find(({ id }) => location.hash === `#${id}`);
+    open(app, named() ?? app.panels[0]);
+    window.addEventListener("hashchange", () => named() && open(app, named()));
     waiting.hidden = true;
     window.beltrami = exposed(app);
   } catch (error) {
