@@ -10,7 +10,8 @@ from PIL import Image
 
 from beltrami.diffusion.heat import heat
 from beltrami.display.page import page as write_page
-from beltrami.mesh.shapes import blob
+from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.shapes import blob, icosphere
 from beltrami.operators.laplacian import laplacian
 from beltrami.spectrum.fourier_basis import fourier_basis
 from browsers import FLAGS, WEBGL, chromium
@@ -19,6 +20,7 @@ from page_reader import moebius
 pytestmark = pytest.mark.browser
 
 MODES = 24
+TWO = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]])
 PANELS = (
     "modes", "heat", "wave", "terms", "filter", "exaggerate", "regularize", "plane", "compare"
 )  # fmt: skip
@@ -349,6 +351,9 @@ def test_a_filter_drawn_with_the_mouse_and_with_keys(visit, shape, basis):
         raised = new
     visit.tab.select_option("#filter-source", "shape")
     assert visit.js("beltrami.app.panel.state.onShape")
+    visit.open("heat")  # which has no shape to choose: the function is the one before
+    assert visit.tab.input_value("#heat-source") == "2"
+    assert np.isfinite(visit.values()).all()
 
 
 def drawn_response(values, basis):
@@ -431,6 +436,28 @@ def test_why_there_is_no_map(browser, tmp_path):
         assert "one side only" in visit.tab.text_content("#panel")
         visit.open("compare")
         assert "not asked for" in visit.tab.text_content("#panel")
+
+
+@pytest.mark.parametrize(
+    ("mesh", "modes"),
+    [
+        (Mesh([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]]), 5),
+        (icosphere(1).with_vertices(icosphere(1).vertices * 1e-9), 1),
+        (Mesh([[0, 0, 0], [9e8, 0, 0], [0, 9e8, 0], [0, 0, 9e9]], [[0, 1, 2], [0, 2, 3]]), 2),
+        (Mesh(np.r_[TWO, np.add(TWO, 5)], [[0, 1, 2], [3, 4, 5]]), 6),
+    ],
+    ids=["planar", "tiny", "huge", "apart"],
+)
+def test_odd_meshes(browser, tmp_path, mesh, modes):
+    write_page(mesh, tmp_path / "p.html", modes=modes)
+    with Visit(browser, tmp_path / "p.html") as visit:
+        for panel in PANELS:
+            visit.open(panel)
+            visit.wait()
+            assert "NaN" not in visit.tab.text_content("body main")
+            assert (np.abs(visit.picture() - 255).max(axis=2) > 20).any() or panel == "terms"
+            assert np.isfinite(visit.values()).all()
+            assert np.isfinite(visit.positions()).all()
 
 
 @pytest.mark.chapter("F3.5")

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from beltrami.cli.atlas import atlas
 from beltrami.cli.compress import compress
 from beltrami.cli.curvature import curvature
 from beltrami.cli.cut import cut
@@ -55,6 +56,7 @@ for verb in (
     decompress,
     cut,
     parameterize,
+    atlas,
     flatten,
     render,
     page,

@@ -8,7 +8,7 @@ import { chosenMap, tableOf } from "../../../src/beltrami/display/web/colours.js
 test("numbers as people read them", () => {
   const cases = [
     [0, "0"], [1.5, "1.5"], [-2, "−2"], [0.0123456, "0.0123"], [1234.56, "1235"],
-    [1.5e-7, "1.5·10⁻⁷"], [2e9, "2·10⁹"], [-3.25e12, "−3.25·10¹²"], [100, "100"],
+    [1.5e-7, "1.5·10⁻⁷"], [1e-5, "10⁻⁵"], [2e9, "2·10⁹"], [-3.25e12, "−3.25·10¹²"], [100, "100"],
   ];
   for (const [x, text] of cases) assert.equal(written(x), text);
 });

@@ -37,6 +37,7 @@ function open(app, chosen) {
     const tab = document.getElementById(`tab-${id}`);
     tab.setAttribute("aria-selected", String(id === chosen.id));
     tab.tabIndex = id === chosen.id ? 0 : -1;
+    if (id === chosen.id) tab.scrollIntoView({ block: "nearest", inline: "center" });
   }
   const captions = (chosen.captions ?? []).map((text) => element("span", {}, text));
   document.getElementById("captions").replaceChildren(...captions);

@@ -37,8 +37,8 @@ export function comparePanel(app) {
       const { sigma, found, errors, mixture } = comparison;
       told.set("σ of the noise", app.withLength(sigma));
       told.set("σ that denoise found", app.withLength(found));
-      told.set("Mean distance, with noise", app.withLength(errors.noisy));
-      told.set("Mean distance, denoised", app.withLength(errors.denoised));
+      told.set("Distance from the truth, noisy", app.withLength(errors.noisy));
+      told.set("The same, denoised (both rms)", app.withLength(errors.denoised));
       told.set("Better by the factor", written(errors.noisy / (errors.denoised || 1)));
       told.set("Main filter", mixture[0] ?? "none");
     },

@@ -27,7 +27,6 @@ export function filterPanel(app) {
   choice.input.value = SHAPE;
   choice.input.addEventListener("change", () => {
     state.onShape = choice.input.value === SHAPE;
-    if (state.onShape) app.source = before(app);
     app.changed();
   });
   const last = () => app.spectrum.eigenvalues[app.k - 1] || 1;
@@ -70,10 +69,10 @@ export function filterPanel(app) {
         return { shape: app.spectrum.shape.map((c) => product(change, c)), keep: rest };
       }
       const source = sourceOf(app);
-      const top = source.point ? rangeOf(app, source, Math.abs.bind(null, 1)) : rangeOf(app, source);
+      const [low, high] = rangeOf(app, source, () => 1);
       return {
         value: product(factors, source.coefficients),
-        range: source.point ? [-top[1] / 3, top[1] / 3] : top,
+        range: source.point ? [-high / 3, high / 3] : [low, high],
         name: `h(B⁻¹L) f: ${source.point ? "a point" : source.name}`,
         marked: source.point,
       };
@@ -88,15 +87,19 @@ export function filterPanel(app) {
       const at = (state.knot / (KNOTS - 1)) * last();
       plot.draw({
         x: { label: app.lambdaLabel(), low: 0, high: last() },
-        y: { label: "h(λ);  stems: |f̂|", low: LOW, high: HIGH },
+        y: { label: "factor h", low: LOW, high: HIGH },
         curves: [
           {
             points: Array.from(eigenvalues, (x, i) => [x, LOW + Math.min(sizes[i] / largest, 1) * 2.3]),
             stems: true,
             role: "third",
+            name: "|f̂|, to scale",
           },
           { points: [[0, 1], [last(), 1]], dashed: true, role: "line" },
-          { points: Array.from(state.values, (y, i) => [(i / (KNOTS - 1)) * last(), y]) },
+          {
+            points: Array.from(state.values, (y, i) => [(i / (KNOTS - 1)) * last(), y]),
+            name: "h(λ)",
+          },
         ],
         mark: { x: at, y: state.values[state.knot] },
       });
@@ -107,8 +110,6 @@ export function filterPanel(app) {
     },
   };
 }
-
-const before = (app) => app.source;
 
 function listenToStrokes(plot, state, last, changed) {
   const { canvas } = plot;

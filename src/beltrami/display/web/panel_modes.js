@@ -80,16 +80,17 @@ export function modesPanel(app) {
       const levels = app.data.levelsOf(app.spectrum)[state.i];
       told.set("Regions of one sign", String(signDomains(levels, app.data.edges)));
       told.set("Courant: at most", String(state.i + 1));
-      const curves = [{ points: [...eigenvalues].map((x, i) => [i, x]) }];
+      const curves = [{ points: [...eigenvalues].map((x, i) => [i, x]), name: "λ" }];
       if (mass !== "degree" && mass !== "unit") {
         const weyl = [...eigenvalues].map((_, i) => [i, (4 * Math.PI * i) / total]);
-        curves.unshift({ points: weyl, dashed: true, role: "third" });
+        curves.unshift({ points: weyl, dashed: true, role: "third", name: "Weyl" });
         told.set("Weyl: 4π i / area", written(weyl[state.i][1]));
       } else told.set("Weyl: 4π i / area", "–");
       plot.draw({
         x: { label: "number i", low: 0, high: Math.max(app.k - 1, 1) },
         y: { label: app.lambdaLabel(), low: 0, high: eigenvalues[app.k - 1] || 1 },
         curves,
+        names: "left",
         mark: { x: state.i, y: eigenvalues[state.i] },
       });
     },

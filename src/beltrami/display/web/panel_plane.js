@@ -50,7 +50,7 @@ export function planePanel(app) {
     nodes: [
       words(
         "Each inner vertex is a weighted mean of its neighbours, and the boundary goes to a " +
-          "circle: by Tutte's theorem nothing folds. On the left the surface, on the right its map.",
+          "circle: by Tutte's theorem nothing folds. The surface beside its map.",
       ),
       formula("u_i = Σ_j w_{ij} u_j / Σ_j w_{ij}"),
       shown.node,
@@ -63,9 +63,10 @@ export function planePanel(app) {
     recipe() {
       distortion ??= distortionAtVertices(app.flat.base, app.flat.faces, app.flat.uv);
       const values = state.shown === "none" ? null : distortion[state.shown];
+      const top = values ? Math.max(1, mostly(values)) : 1;
       const { range, name } = {
-        angle: { range: [0, 4], name: "log₂ σ₁/σ₂ (0: angles kept)" },
-        area: { range: [-4, 4], name: "log₂ σ₁σ₂ / mean (0: areas kept)" },
+        angle: { range: [0, top], name: "log₂ σ₁/σ₂ (0: angles kept)" },
+        area: { range: [-top, top], name: "log₂ σ₁σ₂ / mean (0: areas kept)" },
         none: { range: null, name: "" },
       }[state.shown];
       const checked = state.checks ? state.count : 0;
@@ -80,4 +81,10 @@ export function planePanel(app) {
       told.set("Symmetric Dirichlet energy", written(plane.dirichlet));
     },
   };
+}
+
+// What 95 % of the sizes do not pass.
+function mostly(values) {
+  const sizes = Float32Array.from(values, Math.abs).sort();
+  return sizes[Math.floor(0.95 * (sizes.length - 1))];
 }

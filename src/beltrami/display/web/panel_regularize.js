@@ -91,18 +91,23 @@ export function regularizePanel(app) {
       const [low, high] = limits();
       const times = Array.from({ length: 81 }, (_, i) => low * (high / low) ** (i / 80));
       const rows = times.map((t) => [t, at(t)]);
-      const top = Math.max(...rows.map(([t, r]) => r.far + t * r.rough), 1e-300);
+      const top = 1.15 * Math.max(...rows.map(([t, r]) => r.far + t * r.rough), 1e-300);
       plot.draw({
         x: { label: `t (${app.unit(2)})`, low, high, log: true },
-        y: { label: "both terms", low: 0, high: 1.05 * top },
+        y: { label: "both terms", low: 0, high: top },
         curves: [
-          { points: rows.map(([t, r]) => [t, r.far]) },
-          { points: rows.map(([t, r]) => [t, t * r.rough]), role: "second" },
-          { points: rows.map(([t, r]) => [t, r.far + t * r.rough]), role: "third", dashed: true },
+          { points: rows.map(([t, r]) => [t, r.far]), name: "‖f − g‖²" },
+          { points: rows.map(([t, r]) => [t, t * r.rough]), role: "second", name: "t ⟨Lg, g⟩" },
+          {
+            points: rows.map(([t, r]) => [t, r.far + t * r.rough]),
+            role: "third",
+            dashed: true,
+            name: "sum",
+          },
         ],
+        names: "left",
         mark: { x: state.weight, y: far + state.weight * rough },
       });
-      told.set("Blue: distance; orange: t times energy", "");
     },
   };
 }

@@ -2,7 +2,7 @@
 
 import { decades, ticks, written } from "./ticks.js";
 
-const MARGIN = { left: 52, right: 12, top: 10, bottom: 38 };
+const MARGIN = { left: 30, right: 12, top: 10, bottom: 38 };
 
 // Maps numbers to [0, 1] and back.
 export function scale(low, high, logarithmic) {
@@ -45,14 +45,17 @@ export class Plot {
     const { x, y } = contents;
     this.x = scale(x.low, x.high, x.log);
     this.y = scale(y.low, y.high, y.log);
+    const widths = this.y.ticks.map((value) => pen.measureText(written(value)).width);
+    const left = MARGIN.left + Math.max(...widths, 0);
     this.inner = {
-      left: MARGIN.left,
+      left,
       top: MARGIN.top,
-      width: width - MARGIN.left - MARGIN.right,
+      width: width - left - MARGIN.right,
       height: height - MARGIN.top - MARGIN.bottom,
     };
     this.drawAxes(pen, x, y);
     for (const curve of contents.curves) this.drawCurve(pen, curve);
+    this.drawNames(pen, contents.curves.filter((curve) => curve.name));
     if (contents.mark) this.drawMark(pen, contents.mark);
   }
 
@@ -114,6 +117,18 @@ export class Plot {
       for (const [x, y] of points) stroke(pen, [this.at(x, floor), this.at(x, y)]);
     } else stroke(pen, points.map(([x, y]) => this.at(x, y)));
     pen.setLineDash([]);
+  }
+
+  // Names of the curves, in their colours, in the upper corner that is free (`names`).
+  drawNames(pen, curves) {
+    const { left, top, width } = this.inner;
+    pen.textBaseline = "top";
+    const corner = this.contents.names === "left" ? left + 8 : left + width - 4;
+    pen.textAlign = this.contents.names === "left" ? "left" : "right";
+    curves.forEach(({ name, role = "accent" }, i) => {
+      pen.fillStyle = this.ink(role === "third" ? "quiet" : role);
+      pen.fillText(name, corner, top + 2 + 14 * i);
+    });
   }
 
   drawMark(pen, { x, y }) {

@@ -98,7 +98,7 @@ void main() {
   bool outside = dot(n, u_eye - v_position) >= 0.0;
   vec3 seen = outside ? n : -n;
   float fill = max(dot(seen, normalize(u_eye - v_position)), 0.0);
-  float light = 0.30 + 0.58 * max(dot(seen, u_light), 0.0) + 0.16 * fill;
+  float light = 0.38 + 0.50 * max(dot(seen, u_light), 0.0) + 0.16 * fill;
   float t = clamp((v_value - u_range.x) / (u_range.y - u_range.x), 0.0, 1.0);
   vec3 paint = mix(u_clay, texture(u_colours, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb, u_colored);
   if (u_checks > 0.0) {

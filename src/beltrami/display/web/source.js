@@ -16,7 +16,7 @@ export function sourceChoice(app, id, extra = []) {
     options,
     value: app.source,
     change: (value) => {
-      app.source = value;
+      if (!extra.some(([key]) => key === value)) app.source = value;
       app.changed();
     },
   });
@@ -58,14 +58,15 @@ export function responsePlot(app, source, factor, low, high) {
   const curve = Array.from({ length: 161 }, (_, i) => [(i / 160) * last, factor((i / 160) * last)]);
   return {
     x: { label: app.lambdaLabel(), low: 0, high: last },
-    y: { label: "h(λ);  stems: |f̂|", low, high },
+    y: { label: "factor h", low, high },
     curves: [
       {
         points: sizes.map((s, i) => [eigenvalues[i], Math.min(s / largest, 1) * high * 0.95]),
         stems: true,
         role: "third",
+        name: "|f̂|, to scale",
       },
-      { points: curve },
+      { points: curve, name: "h(λ)" },
     ],
   };
 }

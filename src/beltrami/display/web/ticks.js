@@ -6,7 +6,9 @@ export function written(x, digits = 3) {
   const size = Math.abs(x);
   if (size >= 1e5 || size < 1e-3) {
     const [mantissa, exponent] = x.toExponential(digits - 1).split("e");
-    return `${trimmed(mantissa)}·10${raised(Number(exponent))}`.replace("-", "−");
+    const power = `10${raised(Number(exponent))}`;
+    const factor = trimmed(mantissa);
+    return factor === "1" ? power : `${factor}·${power}`.replace("-", "−");
   }
   return trimmed(x.toPrecision(digits + (size >= 1000 ? 1 : 0))).replace("-", "−");
 }

@@ -8,6 +8,7 @@ import { projected } from "./vectors.js";
 export function viewsOf(app, look) {
   const { gl, panel } = app;
   const [width, height] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+  document.getElementById("captions").classList.toggle("stacked", width < height);
   const box = (i, count) => {
     if (width < height && count > 1) {
       const part = Math.floor(height / count); // one above the other on a phone
