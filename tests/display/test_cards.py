@@ -179,7 +179,7 @@ def test_colours_of_any_kind(color):
 
 
 def test_notebooks_choose_the_card():
-    formatters = pytest.importorskip("IPython.core.formatters", reason="IPython is not installed")
+    formatters = pytest.importorskip("IPython.core.formatters", reason="IPython is not installed: make test-neighbours")
     shown, _ = formatters.DisplayFormatter().format(bt.shapes.icosphere(1))
     assert re.search(r"<td[^>]*>42, 3 coordinates each", shown["text/html"])
     assert shown["image/png"][:4] == b"\x89PNG"
