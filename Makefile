@@ -34,11 +34,11 @@ $(VENV)/.browser: $(VENV)/.installed
 test-browser: $(VENV)/.browser  ## the pages in a real Chromium, and their modules in node
 	$(BIN)/python -m pytest -m browser
 
-test-neighbours:  ## meshes there and back through pyvista, open3d and polyscope: half a gigabyte
+test-neighbours:  ## cards in IPython, meshes there and back through pyvista, open3d and polyscope: half a gigabyte
 	$(PYTHON) -m venv .venv-neighbours
 	.venv-neighbours/bin/python -m pip install --quiet --upgrade "pip>=25.1"
 	.venv-neighbours/bin/python -m pip install --quiet --editable ".[all,view]" --group neighbours
-	.venv-neighbours/bin/python -m pytest -p no:dash tests/mesh/test_neighbours.py  # open3d brings dash
+	.venv-neighbours/bin/python -m pytest -p no:dash tests/mesh/test_neighbours.py tests/display/test_cards.py
 
 docs: $(VENV)/.installed  ## the site, in site/; a warning is an error
 	$(BIN)/python -m pip install --quiet --group docs
