@@ -20,6 +20,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from beltrami import errors as errors
+    from beltrami.batch.run_batch import Batch as Batch
+    from beltrami.batch.run_batch import run_batch as run_batch
     from beltrami.compression.compress import compress as compress
     from beltrami.compression.compress import vertex_order as vertex_order
     from beltrami.compression.decompress import decompress as decompress
@@ -127,6 +129,7 @@ __version__ = "0.1.0"
 
 _HOME = {
     "Atlas": "surfaces.atlas",
+    "Batch": "batch.run_batch",
     "Certificate": "parameterization.certificate",
     "Curvature": "operators.curvature",
     "Cut": "mesh.cut",
@@ -212,6 +215,7 @@ _HOME = {
     "regularize": "diffusion.regularize",
     "render": "display.render",
     "repair": "mesh.repair",
+    "run_batch": "batch.run_batch",
     "segment": "spectrum.segment",
     "shape_dna": "spectrum.shape_dna",
     "smooth": "diffusion.smoothing",

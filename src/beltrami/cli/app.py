@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from beltrami.cli.batch import batch
 from beltrami.cli.compress import compress
 from beltrami.cli.curvature import curvature
 from beltrami.cli.cut import cut
@@ -56,6 +57,7 @@ for verb in (
     parameterize,
     flatten,
     render,
+    batch,
     tour,
 ):
     app.command()(ending_well(verb))

@@ -1,0 +1,184 @@
+"""A real scheduler and real workers, and what happens when they die.
+
+A source that is a named pipe blocks its worker until the test writes into it: so the test knows
+that a worker is in the middle of a mesh, without a clock.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+from contextlib import suppress
+
+import pytest
+
+from beltrami.batch.run_batch import run_batch
+from beltrami.io.registry import write_mesh
+from beltrami.mesh.shapes import torus
+
+pytestmark = pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+
+STEPS = "repair, spectrum k=4, write"
+LONG = 60  # seconds after which a test that hangs is given up
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    """Start a scheduler and two workers, as separate processes."""
+    dask = pytest.importorskip("dask")
+    distributed = pytest.importorskip("distributed")
+    settings = {
+        "distributed.scheduler.allowed-failures": 1,
+        "distributed.worker.memory.spill": False,
+        "distributed.worker.memory.target": False,
+        "distributed.worker.memory.pause": False,
+    }
+    with (
+        dask.config.set(settings),
+        distributed.LocalCluster(
+            n_workers=2,
+            threads_per_worker=1,
+            dashboard_address=None,
+            memory_limit="1GB",
+            silence_logs=60,
+        ) as started,
+    ):
+        yield started
+
+
+@pytest.fixture
+def pipe(tmp_path):
+    """Make a mesh that is a named pipe."""
+    path = tmp_path / "z.ply"
+    os.mkfifo(path)
+    return path
+
+
+@pytest.fixture
+def good(tmp_path):
+    """Write four meshes; return their names."""
+    names = [tmp_path / f"{i}.ply" for i in range(4)]
+    for i, name in enumerate(names):
+        write_mesh(name, torus(12, 7 + i))
+    return names
+
+
+def busy_with(cluster, done):
+    """Return the process of the worker that has a job when all other jobs are done."""
+    from distributed import Client
+
+    done.wait(LONG)
+    with Client(cluster.scheduler_address) as client:
+        pids = client.run(os.getpid)
+        busy = [address for address, tasks in client.processing().items() if tasks]
+    assert len(busy) == 1
+    return pids[busy[0]]
+
+
+class _Counting(threading.Event):
+    """An event that is set when so many meshes have ended."""
+
+    def __init__(self, wanted):
+        super().__init__()
+        self.wanted = wanted
+
+    def __call__(self, state):
+        if state.ended == self.wanted:
+            self.set()
+
+
+def in_thread(function):
+    """Start a function in a thread; return its results, in a list, and the thread."""
+    results = []
+    thread = threading.Thread(target=lambda: results.append(function()), daemon=True)
+    thread.start()
+    return results, thread
+
+
+def test_the_mesh_of_a_killed_worker_is_done_again_and_none_twice(
+    cluster, good, pipe, tmp_path, table
+):
+    out, ended = tmp_path / "out", _Counting(4)
+    address = cluster.scheduler_address
+    results, thread = in_thread(
+        lambda: run_batch([*good, pipe], STEPS, out, scheduler=address, watch=ended)
+    )
+    with suppress(BrokenPipeError), pipe.open("wb"):  # waits for a worker to read
+        os.kill(busy_with(cluster, ended), signal.SIGKILL)
+    write_mesh(tmp_path / "whole.ply", torus(9, 9))
+    with pipe.open("wb") as file:  # waits for another worker to read
+        file.write((tmp_path / "whole.ply").read_bytes())
+    thread.join(LONG)
+    assert [(r.state.done, r.state.failed) for r in results] == [(5, 0)]
+    rows = table(out)
+    assert sorted(rows) == ["0.ply", "1.ply", "2.ply", "3.ply", "z.ply"]
+    assert rows["z.ply"]["repair.n_vertices"] == 81
+    assert len(list((out / "work").rglob("*.json"))) == 5
+    assert list((out / "incoming").iterdir()) == []
+
+
+def test_a_mesh_that_kills_every_worker_fails_and_stops_nobody(
+    cluster, good, pipe, tmp_path, table
+):
+    out, ended = tmp_path / "out", _Counting(4)
+    address = cluster.scheduler_address
+    results, thread = in_thread(
+        lambda: run_batch([*good, pipe], STEPS, out, scheduler=address, watch=ended)
+    )
+    for _ in range(2):
+        with pipe.open("wb"):
+            os.kill(busy_with(cluster, ended), signal.SIGKILL)
+    thread.join(LONG)
+    assert [(r.state.done, r.state.failed) for r in results] == [(4, 1)]
+    row = table(out)["z.ply"]
+    assert (row["error_kind"], row["key"]) == ("KilledWorker", None)
+    assert "the worker died" in row["error"]
+    assert "2 times" in row["error"]
+
+
+CLIENT = """
+import sys
+from beltrami.batch.run_batch import run_batch
+if __name__ == "__main__":
+    run_batch(sys.argv[2:], sys.argv[1], "out", workers=1, memory="2GB")
+"""
+
+
+def client(tmp_path, names, *, group=False):
+    """Start a batch with a worker in a process of its own."""
+    script = tmp_path / "client.py"
+    script.write_text(CLIENT)
+    command = [sys.executable, script, STEPS, *map(str, names)]
+    return subprocess.Popen(
+        command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, start_new_session=group
+    )
+
+
+@pytest.mark.parametrize("how", ["SIGKILL", "SIGINT"])
+def test_a_client_that_is_killed_or_interrupted_goes_on_later(good, pipe, tmp_path, table, how):
+    running = client(tmp_path, [*good, pipe], group=True)
+    with pipe.open("wb") as file:
+        if how == "SIGKILL":
+            running.kill()
+        else:
+            os.killpg(running.pid, signal.SIGINT)  # as a terminal does
+        _, errors = running.communicate(timeout=LONG)
+        with pytest.raises(BrokenPipeError):  # its worker ends too
+            while True:
+                os.write(file.fileno(), b" ")
+    if how == "SIGINT":
+        assert sorted(table(tmp_path / "out")) == ["0.ply", "1.ply", "2.ply", "3.ply"]
+        assert errors.rstrip().endswith("KeyboardInterrupt")
+        assert errors.count("Traceback") == 1
+    results, thread = in_thread(
+        lambda: run_batch([*good, pipe], STEPS, tmp_path / "out", workers=0)
+    )
+    with pipe.open("wb") as file:
+        file.write(good[0].read_bytes())
+    thread.join(LONG)
+    assert [(r.state.done, r.state.reused) for r in results] == [(5, 5)]
+    assert len(table(tmp_path / "out")) == 5
+    assert list((tmp_path / "out" / "incoming").iterdir()) == []
