@@ -70,7 +70,7 @@ def local_workers(count: int, memory: int) -> Iterator[Workers]:
                 threads_per_worker=1,
                 processes=True,
                 memory_limit=memory,
-                dashboard_address=None,
+                dashboard_address="127.0.0.1:0",
                 silence_logs=logging.CRITICAL,
             )
         with cluster, distributed.Client(cluster) as client, _listening() as overfull:
@@ -118,7 +118,9 @@ def on_workers(workers: Workers, jobs: Iterator[Job]) -> Generator[Outcome]:
             if not live:
                 return
             future, name = live.pop(next(pending).key)
-            yield _outcome_of(future, name, workers)
+            outcome = _outcome_of(future, name, workers)
+            del future  # so that nobody keeps what it returned, or does it again
+            yield outcome
     finally:
         with suppress(Exception):  # the connection may be gone with what is being cancelled
             workers.client.cancel([future for future, _ in live.values()], force=True)
@@ -144,7 +146,7 @@ def _outcome_of(future: Any, name: str, workers: Workers) -> Outcome:
             reason = "the worker died, as it does when the machine is out of memory"
         text = f"{reason}, {count} times. Allow more memory, or take fewer workers"
         return Outcome(name, FAILED, error=Problem("KilledWorker", text))
-    except (distributed.client.FutureCancelledError, distributed.CommClosedError) as cause:
+    except (distributed.client.FutureCancelledError, OSError) as cause:
         raise BeltramiError(
             "the scheduler was lost. What is done is kept; run it again to go on"
         ) from cause
