@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from beltrami import errors as errors
+    from beltrami.batch.rows import write_rows as write_rows
     from beltrami.batch.run_batch import Batch as Batch
     from beltrami.batch.run_batch import run_batch as run_batch
     from beltrami.compression.compress import compress as compress
@@ -76,6 +77,9 @@ if TYPE_CHECKING:
     from beltrami.operators.locality import is_local as is_local
     from beltrami.operators.neighbours import knn_graph as knn_graph
     from beltrami.operators.pair import Laplacian as Laplacian
+    from beltrami.operators.partition import RowBlock as RowBlock
+    from beltrami.operators.partition import gather_rows as gather_rows
+    from beltrami.operators.partition import partition_rows as partition_rows
     from beltrami.operators.point_cloud import PointCloud as PointCloud
     from beltrami.operators.projection import project as project
     from beltrami.operators.weights import edge_weights as edge_weights
@@ -156,6 +160,7 @@ _HOME = {
     "PointCloud": "operators.point_cloud",
     "Rectangle": "surfaces.domain",
     "Repair": "mesh.repair",
+    "RowBlock": "operators.partition",
     "Segmentation": "spectrum.segment",
     "Signature": "spectrum.signature",
     "SpotLight": "display.light",
@@ -188,6 +193,7 @@ _HOME = {
     "fourier_basis": "spectrum.fourier_basis",
     "functional_map": "spectrum.functional_map",
     "functional_map_from_points": "spectrum.correspondence",
+    "gather_rows": "operators.partition",
     "gaussian_bumps": "diffusion.bumps",
     "geodesic_distance": "geodesics.distance",
     "harmonic": "parameterization.harmonic",
@@ -207,6 +213,7 @@ _HOME = {
     "minres": "solvers.minres",
     "nodal_domains": "spectrum.nodal_domains",
     "parameterize": "parameterization.parameterize",
+    "partition_rows": "operators.partition",
     "plot_spectrum": "display.spectrum_plot",
     "poisson": "diffusion.poisson",
     "project": "operators.projection",
@@ -227,6 +234,7 @@ _HOME = {
     "wave": "diffusion.wave",
     "wave_kernel_signature": "spectrum.wave_kernel",
     "write_mesh": "io.registry",
+    "write_rows": "batch.rows",
     "zoomout": "spectrum.zoomout",
 }
 _MODULES = {"errors": "errors", "kernels": "spectrum.kernels", "shapes": "mesh.shapes"}

@@ -170,6 +170,11 @@ def client(tmp_path, names, *, group=False):
     )
 
 
+def write_for_ever(file):
+    while True:
+        os.write(file.fileno(), b" ")
+
+
 @pytest.mark.parametrize("how", ["SIGKILL", "SIGINT"])
 def test_a_client_that_is_killed_or_interrupted_goes_on_later(good, pipe, tmp_path, table, how):
     running = client(tmp_path, [*good, pipe], group=True)
@@ -180,8 +185,7 @@ def test_a_client_that_is_killed_or_interrupted_goes_on_later(good, pipe, tmp_pa
             os.killpg(running.pid, signal.SIGINT)  # as a terminal does
         _, errors = running.communicate(timeout=LONG)
         with pytest.raises(BrokenPipeError):  # its worker ends too
-            while True:
-                os.write(file.fileno(), b" ")
+            write_for_ever(file)
     if how == "SIGINT":
         assert {"0.ply", "1.ply", "2.ply"} <= set(table(tmp_path / "out"))
         assert errors.rstrip().endswith("KeyboardInterrupt")

@@ -93,7 +93,8 @@ def test_damaged_bytes_never_raise(where, bytes_):
     st.recursive(
         st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=4),
         lambda inner: (
-            st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from(list(vars(RECORD))), inner)
+            st.lists(inner, max_size=3)
+            | st.dictionaries(st.sampled_from(list(vars(RECORD))), inner)
         ),
     )
 )
