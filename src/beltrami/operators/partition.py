@@ -143,9 +143,10 @@ def _cut(pair: Laplacian, parts: int) -> Integers:
     """Cut the vertices into parts of equal sizes that are near together."""
     n = pair.n
     if not isinstance(pair.domain, Mesh):
-        order = reverse_cuthill_mckee(pair.stiffness, symmetric_mode=True)
         labels = np.empty(n, np.int64)
-        labels[order] = np.arange(n) * parts // n
+        labels[reverse_cuthill_mckee(pair.stiffness, symmetric_mode=True)] = (
+            np.arange(n) * parts // n
+        )
         return labels
     x, order = as_positions(pair.domain.vertices, n), np.arange(n)
     labels, key = np.zeros(n, np.int64), np.empty(n)
