@@ -169,7 +169,7 @@ def _deaf_children() -> Iterator[None]:
 @contextmanager
 def _listening() -> Iterator[set[str]]:
     """Collect the addresses of workers that are stopped because of their memory."""
-    logger = logging.getLogger("distributed.worker.memory")
+    logger = logging.getLogger("distributed")
     ears = _Ears()
     logger.addHandler(ears)
     try:
