@@ -2,9 +2,8 @@
 
     mpiexec -n 2 python3 heat_step.py FOLDER TIME
 
-reads ``FOLDER/rows-<rank>.npz``, which ``bt.partition_rows`` and ``RowBlock.save`` have written
-with a function ``f``, and writes ``FOLDER/result-<rank>.npy``. It needs petsc4py and numpy, not
-beltrami: PETSc may live in another Python, or on another machine.
+reads ``FOLDER/rows-<rank>.npz``, which ``bt.write_rows`` has written with a function "f", and
+writes ``FOLDER/result-<rank>.npy``: the values that the process owns, for ``bt.gather_rows``.
 """
 
 import sys
@@ -15,32 +14,15 @@ import petsc4py
 petsc4py.init(sys.argv[:1])
 from petsc4py import PETSc  # noqa: E402 - after its initialisation
 
-INDEX = PETSc.IntType
-
-
-def matrix(rows, name):
-    """Return a parallel matrix of which this process has given its rows."""
-    owned, n = len(rows["owned"]), int(rows["n"])
-    columns = rows["columns"][rows[f"{name}_indices"]]  # from local to global numbers
-    made = PETSc.Mat().createAIJ(
-        ((owned, n), (owned, n)),
-        csr=(rows[f"{name}_indptr"].astype(INDEX), columns.astype(INDEX), rows[f"{name}_data"]),
-        comm=PETSc.COMM_WORLD,
-    )
-    made.assemble()
-    return made
+from rows import matrix, read_rows  # noqa: E402
 
 
 def main(folder, time):
-    """Solve, and write the values that this process owns."""
-    rank = PETSc.COMM_WORLD.rank
-    rows = np.load(f"{folder}/rows-{rank}.npz", allow_pickle=False)
+    """Solve by conjugate gradients."""
+    rows = read_rows(folder)
     L, B = matrix(rows, "stiffness"), matrix(rows, "mass")
-    if L.getOwnershipRange()[0] != rows["start"]:
-        raise RuntimeError("the files are of another number of processes")
-    f = L.createVecRight()
-    f.setArray(rows["f_heat"])
-    load, u = L.createVecLeft(), L.createVecRight()
+    f, load, u = L.createVecRight(), L.createVecLeft(), L.createVecRight()
+    f.setArray(rows["f_f"])
     B.mult(f, load)
     B.axpy(time, L)
     solver = PETSc.KSP().create(PETSc.COMM_WORLD)
@@ -51,7 +33,7 @@ def main(folder, time):
     solver.solve(load, u)
     if solver.getConvergedReason() <= 0:
         raise RuntimeError(f"PETSc did not converge: reason {solver.getConvergedReason()}")
-    np.save(f"{folder}/result-{rank}.npy", u.getArray())
+    np.save(f"{folder}/result-{PETSc.COMM_WORLD.rank}.npy", u.getArray())
 
 
 if __name__ == "__main__":

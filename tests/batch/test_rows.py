@@ -38,46 +38,66 @@ def test_functions_are_checked(tmp_path):
         bt.write_rows(tmp_path / "missing", blocks)
 
 
-def petsc():
-    """Return the command and the environment in which petsc4py is found; None without it."""
+def parallel_python(package):
+    """Return the command and the environment in which a package of PETSc is found, or None."""
     python, mpi = "/usr/bin/python3", shutil.which("mpiexec.openmpi") or shutil.which("mpiexec")
-    places = ["", *sorted(glob.glob("/usr/lib/petscdir/*/*-real"))]
     if mpi is None or not os.path.exists(python):
         return None
-    clean = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
-    for place in places:
-        environment = clean | ({"PETSC_DIR": place} if place else {})
-        code = "import petsc4py; petsc4py.init([]); from petsc4py import PETSc"
-        done = subprocess.run(
-            [python, "-c", code], env=environment, capture_output=True, check=False
+    environment = {name: v for name, v in os.environ.items() if not name.startswith("PYTHON")}
+    for place in sorted(glob.glob("/usr/lib/petscdir/*/*-real")):  # of Debian
+        environment["PETSC_DIR"] = place
+    paths = sorted(glob.glob("/usr/lib/slepcdir/*/*-real/lib/python3/dist-packages"))
+    environment["PYTHONPATH"] = os.pathsep.join(paths)
+    done = subprocess.run(
+        [python, "-c", f"import {package}; {package}.init([])"],
+        env=environment,
+        capture_output=True,
+        check=False,
+    )
+    flags = ["--allow-run-as-root", "--oversubscribe"] if "openmpi" in mpi else []
+    return ([mpi, *flags, "-n", "2", python], environment) if done.returncode == 0 else None
+
+
+def run_on_two_ranks(package, script, *arguments):
+    """Run an example on two ranks, or skip the test."""
+    found = parallel_python(package)
+    if found is None:
+        pytest.skip(
+            f"needs mpiexec and /usr/bin/python3 with {package} (Debian: python3-{package})"
         )
-        if done.returncode == 0:
-            return mpi, python, environment
-    return None
+    command, environment = found
+    place = os.path.join(os.path.dirname(__file__), "..", "..", "examples", "petsc", script)
+    words = [*command, place, *map(str, arguments)]
+    done = subprocess.run(
+        words, env=environment, check=False, timeout=300, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("mass", ["voronoi", "consistent"])
 def test_petsc_on_two_ranks_makes_the_same_step_of_heat(tmp_path, mass):
-    found = petsc()
-    if found is None:
-        pytest.skip("needs mpiexec and petsc4py: apt-get install python3-petsc4py openmpi-bin")
-    mpi, python, environment = found
-    flags = ["--allow-run-as-root", "--oversubscribe"] if "openmpi" in mpi else []
-    script = os.path.join(os.path.dirname(__file__), "../../examples/petsc/heat_step.py")
-    mesh = bt.shapes.blob(3_000)
-    pair, time = bt.laplacian(mesh, mass=mass), 0.01
+    pair, time = bt.laplacian(bt.shapes.blob(3_000), mass=mass), 0.01
     f = np.random.default_rng(5).normal(size=pair.n)
     blocks = bt.partition_rows(pair, 2)
-    bt.write_rows(tmp_path, blocks, {"heat": f})
-    subprocess.run(
-        [mpi, *flags, "-n", "2", python, script, str(tmp_path), str(time)],
-        env=environment,
-        check=True,
-        timeout=300,
-    )
+    bt.write_rows(tmp_path, blocks, {"f": f})
+    run_on_two_ranks("petsc4py", "heat_step.py", tmp_path, time)
     results = [np.load(tmp_path / f"result-{rank}.npy") for rank in range(2)]
     assert [len(part) for part in results] == [len(block.owned) for block in blocks]
     u = bt.gather_rows(blocks, results)
     expected = bt.heat(pair, f, time, steps=1)
     assert np.abs(u - expected).max() < 1e-8 * np.abs(expected).max()
+
+
+@pytest.mark.heavy
+def test_slepc_on_two_ranks_finds_the_same_spectrum(tmp_path):
+    pair = bt.laplacian(bt.shapes.blob(3_000))
+    blocks = bt.partition_rows(pair, 2)
+    bt.write_rows(tmp_path, blocks)
+    run_on_two_ranks("slepc4py", "spectrum.py", tmp_path, 8)
+    values = np.load(tmp_path / "eigenvalues.npy")
+    vectors = bt.gather_rows(blocks, [np.load(tmp_path / f"result-{r}.npy") for r in range(2)])
+    expected = bt.fourier_basis(pair, 8).eigenvalues
+    assert np.abs(values - expected).max() < 1e-8 * expected[-1]
+    residual = pair.stiffness @ vectors - (pair.mass @ vectors) * values
+    assert np.abs(residual).max() < 1e-6 * np.abs(pair.mass @ vectors).max() * values[-1]
