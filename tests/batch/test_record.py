@@ -65,6 +65,7 @@ def test_numbers_that_json_does_not_know_are_null():
         changed(row=3),
         changed(files={"spectrum": {"name": "../x", "sha256": "", "bytes": 1}}),
         changed(files={"spectrum": {"name": FILE.name, "sha256": "", "bytes": "1"}}),
+        changed(files={"spectrum": vars(FILE) | {"sha256": "ef" * 32}}),
         changed(files={"other": vars(FILE)}),
         changed(files={"spectrum": vars(FILE) | {"path": "/etc"}}),
         changed(error={"kind": "a", "message": 3, "step": ""}, outcome="failed"),

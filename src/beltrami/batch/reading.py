@@ -7,7 +7,6 @@ import os
 import tempfile
 import zlib
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -28,19 +27,21 @@ from beltrami.mesh.mesh import Mesh
 _BLOCK = 1 << 20
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Input:
-    """The bytes of a source, as they were read once."""
+    """A source as it was read, once: what its bytes are known by, and they until they are used."""
 
     name: str
-    content: NDArray[np.uint8]
     suffix: str
     packed: bool
+    sha256: str
+    bytes: int
+    content: NDArray[np.uint8]
 
-    @cached_property
-    def sha256(self) -> str:
-        """The digest of the bytes."""
-        return hashlib.sha256(self.content.data).hexdigest()
+    def taken(self) -> NDArray[np.uint8]:
+        """Return the bytes and forget them: a huge mesh is not to be there twice."""
+        content, self.content = self.content, np.empty(0, np.uint8)
+        return content
 
 
 def read_input(name: str, place: str, allowed: int | None = None) -> Input:
@@ -58,20 +59,10 @@ def read_input(name: str, place: str, allowed: int | None = None) -> Input:
     member = place.partition("::")[0]
     suffix = suffix_of(member, None, MESHES)
     with _opened(place) as file:
-        size = _size_of(file)
-        if size is not None:
-            _require_room(size, suffix, allowed)
-            content = np.empty(size, np.uint8)
-            count = file.readinto(content.data) if hasattr(file, "readinto") else None
-            if count == size and not file.read(1):
-                return Input(name, content, suffix, member.lower().endswith(".gz"))
-            file.seek(0)
-        blocks = bytearray()
-        while block := file.read(_BLOCK):
-            blocks += block
-            _require_room(len(blocks), suffix, allowed)
-    content = np.frombuffer(blocks, np.uint8)
-    return Input(name, content, suffix, member.lower().endswith(".gz"))
+        content = _content(file, suffix, allowed)
+    digest = hashlib.sha256(content.data).hexdigest()
+    packed = member.lower().endswith(".gz")
+    return Input(name, suffix, packed, digest, len(content), content)
 
 
 def mesh_of(given: Input, allowed: int | None = None) -> Mesh:
@@ -84,7 +75,9 @@ def mesh_of(given: Input, allowed: int | None = None) -> Mesh:
     TooLargeError
         If they unpack to more than the memory that is allowed.
     """
-    content = _unpacked(given, allowed) if given.packed else given.content
+    content = given.taken()
+    if given.packed:
+        content = _unpacked(content, given, allowed)
     if given.suffix == ".btm":
         return decompress(content.tobytes())
     if given.suffix in READERS:
@@ -104,6 +97,23 @@ def _opened(place: str) -> Any:
     return open(place, "rb")
 
 
+def _content(file: Any, suffix: str, allowed: int | None) -> NDArray[np.uint8]:
+    """Read all bytes, as long as there is room for the mesh in them."""
+    size = _size_of(file)
+    if size is not None:
+        _require_room(size, suffix, allowed)
+        content = np.empty(size, np.uint8)
+        count = file.readinto(content.data) if hasattr(file, "readinto") else None
+        if count == size and not file.read(1):
+            return content
+        file.seek(0)
+    blocks = bytearray()
+    while block := file.read(_BLOCK):
+        blocks += block
+        _require_room(len(blocks), suffix, allowed)
+    return np.frombuffer(blocks, np.uint8)
+
+
 def _size_of(file: Any) -> int | None:
     """Return how many bytes there are, if that is known."""
     if not file.seekable():
@@ -121,10 +131,10 @@ def _require_room(size: int, suffix: str, allowed: int | None) -> None:
         raise TooLargeError(f"reading {size / 1e6:.0f} MB of {suffix}", needed, allowed)
 
 
-def _unpacked(given: Input, allowed: int | None) -> NDArray[np.uint8]:
+def _unpacked(packed: NDArray[np.uint8], given: Input, allowed: int | None) -> NDArray[np.uint8]:
     """Decompress, and stop where the memory that is allowed would not do."""
     result = bytearray()
-    rest = given.content.tobytes()
+    rest = packed.tobytes()
     try:
         while rest:
             unpacker = zlib.decompressobj(wbits=31)

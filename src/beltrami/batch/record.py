@@ -122,7 +122,10 @@ def _is_valid(record: Record, pipeline: Pipeline) -> bool:
     labels = {step.label for step in pipeline.steps}
     whole = all(name in columns and fits(columns[name], v) for name, v in record.row.items())
     named = all(
-        label in labels and is_name(kept.name) and isinstance(kept.bytes, int)
+        label in labels
+        and is_name(kept.name)
+        and kept.sha256 == kept.name.split("/")[2].partition(".")[0]
+        and isinstance(kept.bytes, int)
         for label, kept in record.files.items()
     )
     texts = record.error is None or all(

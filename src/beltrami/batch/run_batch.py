@@ -141,7 +141,7 @@ def run_batch(
     found = find_sources(sources, store.root if store.is_local else None)
     place = store.root if store.is_local else store.place
     names = [source.name for source in found.sources]
-    with store.claimed(), _running(workers, scheduler, memory) as (run, allowed):
+    with store.claimed(), _running(workers, scheduler, memory, len(names)) as (run, allowed):
         jobs = (Job(s.name, s.place, steps, place, allowed, redo) for s in found.sources)
         tally = Tally(len(names), watch)
         try:
@@ -160,7 +160,7 @@ def run_batch(
 
 @contextmanager
 def _running(
-    workers: int | None, scheduler: str | None, memory: str | float | None
+    workers: int | None, scheduler: str | None, memory: str | float | None, most: int
 ) -> Iterator[tuple[Callable[[Iterator[Job]], Generator[Outcome]], int | None]]:
     """Start what does the jobs; yield it, with the bytes that a job may have."""
     allowed = None if memory is None else parse_size(memory)
@@ -174,7 +174,7 @@ def _running(
         yield one_by_one, allowed
         return
     total = most_memory()
-    count = workers or _count(total, allowed)
+    count = min(workers or _count(total, allowed), most)
     share = allowed or total // count
     if share < BASE:
         raise PipelineError(

@@ -120,7 +120,7 @@ def _worked(job: Job, store: Store, given: Input) -> Outcome:
     error = bench.run(given)
     record = Record(
         _key(job, given),
-        {"sha256": given.sha256, "bytes": len(given.content), "suffix": given.suffix},
+        {"sha256": given.sha256, "bytes": given.bytes, "suffix": given.suffix},
         job.pipeline.plain,
         versions(),
         bench.row,
@@ -130,7 +130,7 @@ def _worked(job: Job, store: Store, given: Input) -> Outcome:
         datetime.now(UTC).isoformat(timespec="seconds"),
     )
     if bench.passing:
-        return Outcome(job.name, FAILED, "", given.sha256, len(given.content), False, record.error)
+        return Outcome(job.name, FAILED, "", given.sha256, given.bytes, False, record.error)
     store.replace(work_name(record.key), lambda path: path.write_bytes(record.encoded()))
     return _outcome(job, given, record, reused=False)
 
@@ -187,7 +187,7 @@ class _Bench:
 
 
 def _outcome(job: Job, given: Input, record: Record, *, reused: bool) -> Outcome:
-    size = len(given.content)
+    size = given.bytes
     return Outcome(job.name, record.outcome, record.key, given.sha256, size, reused, record.error)
 
 
