@@ -152,6 +152,26 @@ def test_a_mesh_that_kills_every_worker_fails_and_stops_nobody(
     assert "2 times" in row["error"]
 
 
+def test_nobody_else_can_talk_to_the_workers_of_this_machine(good, tmp_path):
+    import distributed
+
+    from beltrami.batch.cluster import local_workers, on_workers
+    from beltrami.batch.pipeline import as_pipeline
+    from beltrami.batch.store import Store
+    from beltrami.batch.work import Job
+
+    store = Store(tmp_path / "out")
+    job = Job("a", str(good[0]), as_pipeline(STEPS), store.root, 10**9)
+    with store.claimed(), local_workers(1, 10**9) as workers:
+        assert [outcome.outcome for outcome in on_workers(workers, iter([job]))] == ["done"]
+        address = workers.client.scheduler_info()["address"]
+        assert address.startswith("tls://127.0.0.1:")
+        for stranger in (address, address.replace("tls", "tcp")):
+            security = distributed.Security.temporary() if stranger == address else None
+            with pytest.raises(OSError, match=r"."):
+                distributed.Client(stranger, timeout="1s", security=security)
+
+
 CLIENT = """
 import sys
 from beltrami.batch.run_batch import run_batch

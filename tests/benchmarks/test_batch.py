@@ -1,12 +1,19 @@
 """The meshes of the benchmark have the defects that it says, and the tables are of what was run."""
 
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 from benchmarks.batch import dirty, ply, report, run, write_meshes
+from benchmarks.batch_memory import STEPS
 from benchmarks.huge import write_sphere
 
 import beltrami as bt
 from benchmarks import batch
+
+ROOT = Path(__file__).parents[2]
 
 
 def test_every_defect_is_there(tmp_path):
@@ -64,3 +71,33 @@ def test_the_huge_sphere_is_clean(tmp_path, faces):
     assert found.genus == 0
     assert found.volume > 0
     assert found.n_faces == pytest.approx(faces, rel=0.3)
+
+
+@pytest.mark.heavy
+@pytest.mark.skipif(sys.platform != "linux", reason="peaks are measured on Linux")
+@pytest.mark.parametrize("step", STEPS)
+def test_no_step_needs_more_memory_than_is_estimated(step):
+    done = subprocess.run(
+        [sys.executable, "-m", "benchmarks.batch_memory", "--vertices", "150000", step],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    *_, ratio = done.stdout.splitlines()[-1].strip("| ").split(" | ")
+    assert 1 < float(ratio) < 3
+
+
+@pytest.mark.heavy
+def test_ten_million_faces_within_eight_gigabytes():
+    done = subprocess.run(
+        [sys.executable, "-m", "benchmarks.huge", "--faces", "10000000"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    rows = [line.strip("| ").split(" | ") for line in done.stdout.splitlines()]
+    peaks = {row[0]: float(row[3]) for row in rows if len(row) == 5 and row[1][0].isdigit()}
+    assert set(peaks) == {"read", "diagnose", "smooth", "render"}
+    assert max(peaks.values()) < 8

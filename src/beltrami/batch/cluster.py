@@ -59,8 +59,10 @@ def most_memory() -> int:
 def local_workers(count: int, memory: int) -> Iterator[Workers]:
     """Start worker processes on this machine: one thread each, and one of the linear algebra.
 
-    A worker that takes more than ``memory`` bytes is stopped, and another one started.
+    A worker that takes more than ``memory`` bytes is stopped, and another one started. They talk
+    through TLS with keys of this run, because who can talk to a worker can make it do anything.
     """
+    require("cryptography", "batch", "a batch of several workers")
     distributed = require("distributed", "batch", "a batch of several workers")
     dask = require("dask", "batch", "a batch of several workers")
     with dask.config.set(_CONFIG):
@@ -70,6 +72,7 @@ def local_workers(count: int, memory: int) -> Iterator[Workers]:
                 threads_per_worker=1,
                 processes=True,
                 memory_limit=memory,
+                security=distributed.Security.temporary(),
                 dashboard_address="127.0.0.1:0",
                 silence_logs=logging.CRITICAL,
             )
