@@ -306,3 +306,21 @@ def test_what_is_not_installed_is_named_before_the_work(meshes, tmp_path, monkey
     monkeypatch.setitem(sys.modules, package, None)
     with pytest.raises(MissingExtraError, match=r"beltrami\[batch\]"):
         run(meshes, tmp_path / "out", workers=1)
+
+
+def test_the_table_does_not_depend_on_the_size_of_its_pieces(meshes, tmp_path, table, monkeypatch):
+    run(meshes, tmp_path / "out")
+    at_once = table(tmp_path / "out")
+    monkeypatch.setattr("beltrami.batch.results._ROWS", 2)
+    run(meshes, tmp_path / "out")
+    assert table(tmp_path / "out") == at_once
+
+
+def test_a_table_of_failures_alone_has_every_column(meshes, tmp_path):
+    import pyarrow.parquet
+
+    run(meshes / "bad.ply", tmp_path / "out")
+    found = pyarrow.parquet.read_schema(tmp_path / "out" / "results.parquet")
+    assert str(found.field("spectrum.eigenvalues").type) == "list<element: double>"
+    assert str(found.field("repair.n_faces").type) == "int64"
+    assert "descriptors.file" in found.names
