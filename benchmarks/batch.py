@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -25,13 +26,19 @@ CUT_OFF = 100  # one in so many
 
 @dataclass(frozen=True)
 class Run:
-    """A run: workers, meshes per second, and where the time of a worker went, for each mesh."""
+    """A run, and where its time went, in seconds.
+
+    ``busy`` is the processor in the steps; ``of_client`` in the process of the client and of the
+    scheduler, ``of_workers`` in the workers, what they need to start included.
+    """
 
     workers: int
     done: int
     failed: int
     wall: float
     busy: float
+    of_client: float
+    of_workers: float
     steps: dict[str, float]
 
     @property
@@ -96,7 +103,9 @@ def run(folder: Path, out: Path, workers: int) -> Run:
     """Run the pipeline, and add up what the manifest says of the time."""
     import beltrami as bt
 
+    before = spent()
     found = bt.run_batch(str(folder), STEPS, out, workers=workers)
+    client, children = (now - then for now, then in zip(spent(), before, strict=True))
     lines = [json.loads(line) for line in (out / found.manifest).read_text("utf-8").splitlines()]
     steps: dict[str, float] = {}
     for line in lines[1:]:
@@ -109,14 +118,16 @@ def run(folder: Path, out: Path, workers: int) -> Run:
 def report(runs: list[Run], again: Run) -> str:
     """Return the tables."""
     lines = [
-        "| workers | meshes/s | done | failed | wall, s | in the steps, s | overhead, ms/mesh |",
-        "|---|---|---|---|---|---|---|",
+        "| workers | meshes/s | done | failed | wall, s | CPU in the steps, s | of workers, s | "
+        "of client and scheduler, s | wall beside the steps, ms/mesh |",
+        "|---|---|---|---|---|---|---|---|---|",
     ]
     for one in runs:
         rate = (one.done + one.failed) / one.wall
         lines.append(
             f"| {one.workers} | {rate:.2f} | {one.done} | {one.failed} | {one.wall:.1f} | "
-            f"{one.busy:.1f} | {1000 * one.overhead:.1f} |"
+            f"{one.busy:.1f} | {one.of_workers:.1f} | {one.of_client:.1f} | "
+            f"{1000 * one.overhead:.1f} |"
         )
     first, last = runs[0], runs[-1]
     meshes = first.done + first.failed

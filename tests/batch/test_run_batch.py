@@ -220,7 +220,7 @@ def test_a_mesh_that_would_not_fit_fails_before_its_work(meshes, tmp_path, table
     found = run(meshes / "0.ply", out, steps, memory="2GB")
     row = table(out)["0.ply"]
     assert row["error_kind"] == "TooLargeError"
-    assert "is estimated to need 4.3" in row["error"]
+    assert "is estimated to need 8.41 GB" in row["error"]
     assert "2.00 GB are allowed" in row["error"]
     assert row["diagnose.n_vertices"] is None
     assert row["key"] is None  # more memory may be there next time

@@ -1,11 +1,12 @@
 """Memory: how much a step will need, told before it begins, and how much it may have.
 
 The numbers are peaks measured on closed surfaces (n vertices, 2n faces), rounded up; see
-``benchmarks/batch.py``.
+``benchmarks/batch_memory.py``.
 """
 
 from __future__ import annotations
 
+import math
 import re
 from typing import Final
 
@@ -46,7 +47,7 @@ def parse_size(text: str | float) -> int:
 
 def of_mesh(size: Size) -> int:
     """Return the bytes that a mesh with its topology holds."""
-    return 60 * size.n_vertices + 200 * size.n_faces
+    return 60 * size.n_vertices + 120 * size.n_faces
 
 
 def linear(per_vertex: int, per_face: int, held: int = 0) -> Estimate:
@@ -65,37 +66,47 @@ def linear(per_vertex: int, per_face: int, held: int = 0) -> Estimate:
     return estimate
 
 
-of_diagnosis: Final = linear(150, 250)
-of_repair: Final = linear(200, 500, held=460)  # the new mesh beside the old one
-of_denoising: Final = linear(1_500, 700, held=24)
-of_compression: Final = linear(600, 400)
-of_integrals: Final = linear(120, 150)
-of_curvature: Final = linear(350, 350)
-of_parameterization: Final = linear(3_500, 900)
+of_diagnosis: Final = linear(100, 150)
+of_writing: Final = linear(50, 25)
+of_repair: Final = linear(130, 250, held=300)  # the new mesh beside the old one
+of_denoising: Final = linear(1_400, 500, held=24)
+of_compression: Final = linear(700, 420)
+of_integrals: Final = linear(100, 150)
+of_curvature: Final = linear(220, 150)
+of_parameterization: Final = linear(2_000, 500)
+
+
+def _factor(n: int) -> int:
+    """Return the bytes of a factor and of what it takes to make it: O(n log n) on a surface."""
+    return int(90 * n * math.log2(n + 2))
 
 
 def of_smoothing(options: Options, size: Size) -> tuple[int, int]:
-    """Estimate smoothing: rows of weights, or for a flow a factor."""
-    flow = "time" in options and options.get("method") != "explicit"
-    return linear(2_500 if flow else 350, 150, held=24)(options, size)
+    """Estimate smoothing: rows of weights, normals of faces, or a factor."""
+    n = size.n_vertices
+    if "time" in options and options.get("method") != "explicit":
+        return _factor(n) + 100 * size.n_faces, 24 * n
+    if options.get("method", "").endswith("_normals"):
+        return linear(500, 420, held=24)(options, size)
+    return linear(130, 100, held=24)(options, size)
 
 
 def of_pair(options: Options, size: Size) -> tuple[int, int]:
     """Estimate a stiffness and a mass."""
     intrinsic = options.get("weights") in ("intrinsic_delaunay", "tufted")
-    return linear(200, 1_200 if intrinsic else 250, held=180)(options, size)
+    return linear(170, 400 if intrinsic else 150, held=180)(options, size)
 
 
 def of_spectrum(options: Options, size: Size) -> tuple[int, int]:
-    """Estimate eigenpairs: 8nk + 4n (2.6k + 500) bytes, and the vectors that stay."""
+    """Estimate eigenpairs: a factor, vectors to search with, and those that stay."""
     n, k = size.n_vertices, options["k"]
-    peak, held = of_pair(options, size)
+    pair, held = of_pair(options, size)
     dense = 40 * n * n if n <= 500 else 0
-    return peak + 8 * n * k + int(4 * n * (2.6 * k + 500)) + dense, held + 8 * n * k
+    return max(pair, _factor(n) + 30 * n * k + dense), held + 8 * n * k
 
 
 def of_descriptors(options: Options, size: Size) -> tuple[int, int]:
-    """Estimate signatures: count numbers for each vertex, and as many while they are summed."""
+    """Estimate signatures: count numbers for each vertex, as many while they are made."""
     count = max(len(options.get("times", ())), options["count"])
     kinds = {"all": 2, "shape-dna": 0}.get(options["kind"], 1)
-    return (kinds + 1) * 8 * size.n_vertices * count, 0
+    return 8 * (2 * kinds + 2) * size.n_vertices * count, 0

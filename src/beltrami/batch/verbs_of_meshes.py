@@ -10,6 +10,7 @@ from beltrami.batch.memory import (
     of_diagnosis,
     of_repair,
     of_smoothing,
+    of_writing,
 )
 from beltrami.batch.parameters import Choice, Flag, Number, Whole
 from beltrami.batch.verb import Options, Scene, Told, Verb, table
@@ -197,6 +198,6 @@ VERBS_OF_MESHES: Final = table(
         _write,
         {"n_vertices": "whole", "n_faces": "whole"},
         {"format": Choice(tuple(suffix.lstrip(".") for suffix in WRITERS), "ply")},
-        of_diagnosis,
+        of_writing,
     ),
 )
