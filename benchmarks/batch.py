@@ -112,7 +112,15 @@ def run(folder: Path, out: Path, workers: int) -> Run:
         for label, seconds in line.get("seconds", {}).items():
             steps[label] = steps.get(label, 0.0) + seconds
     state = found.state
-    return Run(max(workers, 1), state.done, state.failed, state.seconds, sum(steps.values()), steps)
+    busy = sum(steps.values())
+    counts = max(workers, 1), state.done, state.failed
+    return Run(*counts, state.seconds, busy, client, children, steps)
+
+
+def spent() -> tuple[float, float]:
+    """Return the seconds of the processor of this process, and of its children that have ended."""
+    times = os.times()
+    return times.user + times.system, times.children_user + times.children_system
 
 
 def report(runs: list[Run], again: Run) -> str:
