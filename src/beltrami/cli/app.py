@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from beltrami.cli.atlas import atlas
 from beltrami.cli.batch import batch
 from beltrami.cli.compress import compress
 from beltrami.cli.curvature import curvature
@@ -20,6 +21,7 @@ from beltrami.cli.geodesics import geodesics
 from beltrami.cli.heat import heat
 from beltrami.cli.info import info
 from beltrami.cli.integrate import integrate
+from beltrami.cli.page import page
 from beltrami.cli.parameterize import parameterize
 from beltrami.cli.regularize import regularize
 from beltrami.cli.render import render
@@ -55,9 +57,11 @@ for verb in (
     decompress,
     cut,
     parameterize,
+    atlas,
     flatten,
     render,
     batch,
+    page,
     tour,
 ):
     app.command()(ending_well(verb))
