@@ -22,6 +22,9 @@ from beltrami._carded import register_drawer
 
 if TYPE_CHECKING:
     from beltrami import errors as errors
+    from beltrami.batch.rows import write_rows as write_rows
+    from beltrami.batch.run_batch import Batch as Batch
+    from beltrami.batch.run_batch import run_batch as run_batch
     from beltrami.compression.compress import compress as compress
     from beltrami.compression.compress import vertex_order as vertex_order
     from beltrami.compression.decompress import decompress as decompress
@@ -80,6 +83,9 @@ if TYPE_CHECKING:
     from beltrami.operators.locality import is_local as is_local
     from beltrami.operators.neighbours import knn_graph as knn_graph
     from beltrami.operators.pair import Laplacian as Laplacian
+    from beltrami.operators.partition import RowBlock as RowBlock
+    from beltrami.operators.partition import gather_rows as gather_rows
+    from beltrami.operators.partition import partition_rows as partition_rows
     from beltrami.operators.point_cloud import PointCloud as PointCloud
     from beltrami.operators.projection import project as project
     from beltrami.operators.weights import edge_weights as edge_weights
@@ -139,6 +145,7 @@ register_drawer("beltrami.display.cards")  # no room on the way there may import
 
 _HOME = {
     "Atlas": "surfaces.atlas",
+    "Batch": "batch.run_batch",
     "Certificate": "parameterization.certificate",
     "Curvature": "operators.curvature",
     "Cut": "mesh.cut",
@@ -167,6 +174,7 @@ _HOME = {
     "PointCloud": "operators.point_cloud",
     "Rectangle": "surfaces.domain",
     "Repair": "mesh.repair",
+    "RowBlock": "operators.partition",
     "Segmentation": "spectrum.segment",
     "Signature": "spectrum.signature",
     "SpotLight": "display.light",
@@ -203,6 +211,7 @@ _HOME = {
     "fourier_basis": "spectrum.fourier_basis",
     "functional_map": "spectrum.functional_map",
     "functional_map_from_points": "spectrum.correspondence",
+    "gather_rows": "operators.partition",
     "gaussian_bumps": "diffusion.bumps",
     "geodesic_distance": "geodesics.distance",
     "harmonic": "parameterization.harmonic",
@@ -223,6 +232,7 @@ _HOME = {
     "nodal_domains": "spectrum.nodal_domains",
     "page": "display.page",
     "parameterize": "parameterization.parameterize",
+    "partition_rows": "operators.partition",
     "plot_spectrum": "display.spectrum_plot",
     "poisson": "diffusion.poisson",
     "project": "operators.projection",
@@ -231,6 +241,7 @@ _HOME = {
     "regularize": "diffusion.regularize",
     "render": "display.render",
     "repair": "mesh.repair",
+    "run_batch": "batch.run_batch",
     "segment": "spectrum.segment",
     "segment_into_disks": "parameterization.disk_cells",
     "shape_dna": "spectrum.shape_dna",
@@ -243,6 +254,7 @@ _HOME = {
     "wave": "diffusion.wave",
     "wave_kernel_signature": "spectrum.wave_kernel",
     "write_mesh": "io.registry",
+    "write_rows": "batch.rows",
     "zoomout": "spectrum.zoomout",
 }
 _MODULES = {"errors": "errors", "kernels": "spectrum.kernels", "shapes": "mesh.shapes"}
