@@ -48,6 +48,8 @@ if TYPE_CHECKING:
     from beltrami.io.function import read_function as read_function
     from beltrami.io.registry import read_mesh as read_mesh
     from beltrami.io.registry import write_mesh as write_mesh
+    from beltrami.learning.learning_operators import learning_operators as learning_operators
+    from beltrami.learning.operators import LearningOperators as LearningOperators
     from beltrami.mesh import shapes as shapes
     from beltrami.mesh.convert import as_mesh as as_mesh
     from beltrami.mesh.cut import Cut as Cut
@@ -146,6 +148,7 @@ _HOME = {
     "InverseIteration": "solvers.inverse_iteration",
     "IterativeSolution": "solvers.iteration",
     "Laplacian": "operators.pair",
+    "LearningOperators": "learning.operators",
     "Mesh": "mesh.mesh",
     "NodalDomains": "spectrum.nodal_domains",
     "Parameterization": "parameterization.parameterization",
@@ -198,6 +201,7 @@ _HOME = {
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",
+    "learning_operators": "learning.learning_operators",
     "load_basis": "spectrum.load_basis",
     "mexican_hat_frame": "spectrum.wavelets",
     "meyer_frame": "spectrum.wavelets",
