@@ -19,6 +19,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from beltrami import datasets as datasets
     from beltrami import errors as errors
     from beltrami.compression.compress import compress as compress
     from beltrami.compression.compress import vertex_order as vertex_order
@@ -229,7 +230,12 @@ _HOME = {
     "write_mesh": "io.registry",
     "zoomout": "spectrum.zoomout",
 }
-_MODULES = {"errors": "errors", "kernels": "spectrum.kernels", "shapes": "mesh.shapes"}
+_MODULES = {
+    "datasets": "datasets",
+    "errors": "errors",
+    "kernels": "spectrum.kernels",
+    "shapes": "mesh.shapes",
+}
 
 __all__ = sorted([*_HOME, *_MODULES])
 
