@@ -13,7 +13,7 @@ from scipy.sparse import issparse
 
 from beltrami.errors import BeltramiError
 
-_LEAVES = (str, bytes, bool, int, type(None), types.FunctionType, types.BuiltinFunctionType, type)
+_LEAVES = (str, type(None), types.FunctionType, types.BuiltinFunctionType, type)
 
 
 def arrays_of(result, seen=None):
@@ -25,8 +25,10 @@ def arrays_of(result, seen=None):
 
 
 def _walk(path, value, seen):
-    if isinstance(value, np.ndarray | np.generic | float | complex):
+    if isinstance(value, np.ndarray | np.generic | int | float | complex):
         yield path, np.asarray(value)
+    elif isinstance(value, bytes):
+        yield path, np.frombuffer(value, np.uint8)
     elif issparse(value):
         yield path, value.data
     elif isinstance(value, _LEAVES) or id(value) in seen:
@@ -55,10 +57,14 @@ def _parts(value):
 
 
 def digest(result, leave_out=("seconds", "path")):
-    """A digest of all bits of a result, but for what tells the time or where a file was."""
+    """A digest of all bits of a result, but for what tells the time or where a file was.
+
+    Floats are taken as float64, since functions on a mesh keep their type.
+    """
     sha = hashlib.sha256()
     for path, array in arrays_of(result):
         if not any(word in path for word in leave_out):
+            array = array.astype(np.float64) if array.dtype.kind == "f" else array
             sha.update(f"{path} {array.dtype} {array.shape};".encode())
             sha.update(np.ascontiguousarray(array).tobytes())
     return sha.hexdigest()
