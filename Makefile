@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 
-.PHONY: tour test test-heavy test-browser docs-map lint bench clean
+.PHONY: tour test test-heavy test-browser docs-map lint bench audit fuzz clean
 
 $(VENV)/.installed: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -40,5 +40,21 @@ bench:  ## against the peers, in an environment of their own; writes BENCHMARKS.
 	-.venv-bench/bin/python -m pip install --quiet --group bench-cholmod  # Debian: libsuitesparse-dev
 	.venv-bench/bin/python -m benchmarks
 
+audit: $(VENV)/.installed  ## bill of materials (dist/sbom.json); fails on what is vulnerable or unknown
+	$(PYTHON) -m venv .venv-audit
+	.venv-audit/bin/python -m pip install --quiet --upgrade "pip>=25.1"
+	.venv-audit/bin/python -m pip install --quiet --group audit
+	mkdir -p dist
+	.venv-audit/bin/cyclonedx-py environment --pyproject pyproject.toml -o dist/sbom.json $(BIN)/python
+	$(BIN)/python -m pip freeze --exclude-editable > dist/installed.txt
+	.venv-audit/bin/pip-audit --strict --no-deps --disable-pip -r dist/installed.txt
+
+FORMATS ?= obj off ply stl btm csv npy npz
+SECONDS ?= 60
+fuzz: $(VENV)/.installed  ## readers, led by coverage, with bounds checked; finds stay in tests/fuzz/corpus
+	for format in $(FORMATS); do \
+	  NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.fuzz-cache $(BIN)/python tests/fuzz $$format $(SECONDS) || exit 1; \
+	done
+
 clean:
-	rm -rf $(VENV) .venv-bench tour dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) .venv-bench .venv-audit .fuzz-cache tour dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
