@@ -11,7 +11,7 @@ from typing import IO, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, require_finite
+from beltrami._arrays import Floats, as_floats, require_finite
 from beltrami.errors import DimensionError, EmptyMeshError, FileFormatError, check_name
 from beltrami.io import extras
 from beltrami.io.atomic import replacing
@@ -160,7 +160,7 @@ def _write(file: Any, mesh: Mesh, vertices: Floats, suffix: str, uv: ArrayLike |
     if suffix in extras.WRITERS:
         file.write(extras.encode(mesh, vertices, suffix))
     elif uv is not None:
-        write_obj(file, mesh, vertices, np.asarray(uv, dtype=np.float64))
+        write_obj(file, mesh, vertices, as_floats(uv))
     else:
         WRITERS[suffix](file, mesh, vertices)
 

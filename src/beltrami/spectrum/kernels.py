@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import expit
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Floats, as_floats
 from beltrami.errors import BeltramiError
 from beltrami.spectrum.kernel import Combined, Kernel
 
@@ -223,7 +223,7 @@ def smooth_step(x: ArrayLike) -> Floats:
     >>> smooth_step(np.array([-1.0, 0.0, 0.5, 1.0, 2.0])).tolist()
     [0.0, 0.0, 0.5, 1.0, 1.0]
     """
-    x = np.asarray(x, dtype=np.float64)
+    x = as_floats(x)
     inside = (x > 0) & (x < 1)
     y = np.where(inside, x, 0.5)
     with np.errstate(over="ignore"):  # 1 / 1e-320: the step is 0 there
