@@ -133,7 +133,8 @@ def evaluate(h: Response, eigenvalues: Floats) -> Floats:
     """
     if not callable(h):
         raise BeltramiError(f"h is a function of the eigenvalues, not of type {type(h).__name__}")
-    found: NDArray[Any] = rectangular(h(eigenvalues))
+    given: Any = h(eigenvalues)
+    found: NDArray[Any] = given if isinstance(given, np.ndarray) else rectangular(given)
     if found.dtype.kind not in "biuf" or found.shape not in ((), eigenvalues.shape):
         raise DimensionError(
             f"h gave an array of type {found.dtype} and shape {found.shape} for "
