@@ -70,7 +70,8 @@ FORMATS ?= obj off ply stl btm csv npy npz
 SECONDS ?= 60
 fuzz: $(VENV)/.installed  ## readers, led by coverage, with bounds checked; finds stay in tests/fuzz/corpus
 	for format in $(FORMATS); do \
-	  NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.fuzz-cache $(BIN)/python tests/fuzz $$format $(SECONDS) || exit 1; \
+	  PYTHONPATH=tests NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.fuzz-cache \
+	    $(BIN)/python -m fuzz $$format $(SECONDS) || exit 1; \
 	done
 
 bench-large:  ## solver and spectra to 2.1M vertices, after `make bench`; writes BENCHMARKS-LARGE.md

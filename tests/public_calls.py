@@ -147,6 +147,11 @@ MESHES = {
     "decompress": lambda s: bt.decompress(s.compressed),
     "vertex_order": lambda s: bt.vertex_order(s.mesh),
     "render": lambda s: bt.render(s.mesh, s.f, size=(24, 24), antialias=1, colorbar=False),
+    "page": lambda s: bt.page(s.mesh, s.path("a.html"), s.f, modes=2, plane=False).notes,
+    "Page": lambda s: bt.page(
+        s.mesh, s.path("a.html"), modes=1, laplacians=("combinatorial",), noise=0
+    ).path.is_file(),
+    "colorize": lambda s: bt.colorize(s.fields),
     "DirectionalLight": lambda s: bt.render(
         s.mesh, size=(16, 16), antialias=1, light=bt.DirectionalLight((0, 0, 1))
     ),
@@ -318,6 +323,11 @@ FLOWS = {
     "Parameterization.image": lambda s: s.map.image([0], [[0.2, 0.3, 0.5]]),
     "Parameterization.original": lambda s: s.map.original(s.map.uv[:1]),
     "flatten": lambda s: bt.flatten(s.mesh),
+    "atlas": lambda s: bt.atlas(s.mesh, 2, size=64, strict=False),
+    "TextureAtlas": lambda s: bt.atlas(s.mesh, size=32, seams=0, max_distortion=4.0),
+    "bake": lambda s: bt.bake(bt.atlas(s.mesh, size=32, strict=False), s.f),
+    "segment_into_disks": lambda s: bt.segment_into_disks(s.mesh, 2),
+    "DiskCells": lambda s: bt.segment_into_disks(s.mesh, 1).labels,
     "harmonic": lambda s: bt.harmonic(s.mesh, s.held, s.fields[s.held]),
     "certify": lambda s: bt.certify(s.mesh, s.fields),
     "Certificate": lambda s: bt.certify(s.map.mesh, s.map.uv),
@@ -394,7 +404,7 @@ SURFACES = {
 }
 ROWS = {**MESHES, **OPERATORS, **SPECTRA, **FLOWS, **GRIDS, **SURFACES}
 CALLS = {name: call for name, call in ROWS.items() if call is not None}
-SLOW = ("plot_spectrum",)  # called once
+SLOW = ("plot_spectrum", "page", "Page")  # called once
 OF_MESHES = {
     name: call
     for name, call in CALLS.items()
