@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 from beltrami._carded import register_drawer
 
 if TYPE_CHECKING:
+    from beltrami import datasets as datasets
     from beltrami import errors as errors
     from beltrami.batch.rows import write_rows as write_rows
     from beltrami.batch.run_batch import Batch as Batch
@@ -57,6 +58,8 @@ if TYPE_CHECKING:
     from beltrami.io.function import read_function as read_function
     from beltrami.io.registry import read_mesh as read_mesh
     from beltrami.io.registry import write_mesh as write_mesh
+    from beltrami.learning.learning_operators import learning_operators as learning_operators
+    from beltrami.learning.operators import LearningOperators as LearningOperators
     from beltrami.mesh import shapes as shapes
     from beltrami.mesh.convert import as_mesh as as_mesh
     from beltrami.mesh.cut import Cut as Cut
@@ -166,6 +169,7 @@ _HOME = {
     "InverseIteration": "solvers.inverse_iteration",
     "IterativeSolution": "solvers.iteration",
     "Laplacian": "operators.pair",
+    "LearningOperators": "learning.operators",
     "Mesh": "mesh.mesh",
     "NodalDomains": "spectrum.nodal_domains",
     "Page": "display.page",
@@ -225,6 +229,7 @@ _HOME = {
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",
+    "learning_operators": "learning.learning_operators",
     "load_basis": "spectrum.load_basis",
     "mexican_hat_frame": "spectrum.wavelets",
     "meyer_frame": "spectrum.wavelets",
@@ -257,7 +262,12 @@ _HOME = {
     "write_rows": "batch.rows",
     "zoomout": "spectrum.zoomout",
 }
-_MODULES = {"errors": "errors", "kernels": "spectrum.kernels", "shapes": "mesh.shapes"}
+_MODULES = {
+    "datasets": "datasets",
+    "errors": "errors",
+    "kernels": "spectrum.kernels",
+    "shapes": "mesh.shapes",
+}
 
 __all__ = sorted([*_HOME, *_MODULES])
 

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, Integers, as_function, as_indices, read_only
+from beltrami._arrays import Floats, Integers, as_floats, as_function, as_indices, read_only
 from beltrami._carded import Carded
 from beltrami.errors import DimensionError, FoldedMapError
 from beltrami.mesh.cut import Cut
@@ -110,8 +110,8 @@ class Parameterization(Carded):
         >>> psi.image(faces[:1], inside[:1]).round(12).tolist(), int(faces[1])
         ([[0.25, 0.5]], -1)
         """
-        given = np.asarray(points, dtype=np.float64)
-        x = as_map(given, len(given))
+        given = as_floats(points)
+        x = as_map(given, len(given) if given.ndim else 0)
         return locate(self.uv[self.mesh.faces], x)
 
     @cached_property

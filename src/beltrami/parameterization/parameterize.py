@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Booleans, Floats, Integers, read_only
+from beltrami._arrays import Booleans, Floats, Integers, as_indices, read_only
 from beltrami.errors import MeshError, NotADiskError, check_name
 from beltrami.mesh.cut import Cut, cut_along, edges_between, shortest_paths
 from beltrami.mesh.door import require_mesh
@@ -44,7 +44,7 @@ class _Request:
     weights: tuple[str | Weigher, ...]  # the next ones only where those before give a bad map
     boundary: Curve
     spacing: str
-    corners: ArrayLike | None
+    corners: Integers | None
     bulge: float
 
 
@@ -162,8 +162,9 @@ def parameterize(
         )
         return without_fillings(psi, mesh, filled, strict=strict)
     kinds: tuple[str | Weigher, ...] = (weights,) if weights is not None else _DEFAULTS[method]
-    asked = _Request(method, kinds, boundary, spacing, corners, bulge)
     current = cut_to_disk(mesh) if cut else _as_it_is(mesh)
+    places = None if corners is None else as_indices(corners, current.mesh.n_vertices, "corners")
+    asked = _Request(method, kinds, boundary, spacing, places, bulge)
     labels = current.mesh.components()
     uv = np.zeros((current.mesh.n_vertices, 2))
     for component in range(int(labels.max()) + 1):
@@ -224,8 +225,7 @@ def _solved(part: Mesh, number: Integers, asked: _Request) -> Step:
     corners = asked.corners
     if corners is not None:
         place = {int(v): q for q, v in enumerate(number)}
-        wanted = np.asarray(corners).ravel().tolist()
-        corners = np.array([place.get(int(v), -1) for v in wanted])
+        corners = np.array([place.get(v, -1) for v in corners.tolist()], dtype=np.int64)
     placed = place_boundary(
         part, loop, asked.boundary, spacing=asked.spacing, corners=corners, bulge=asked.bulge
     )
