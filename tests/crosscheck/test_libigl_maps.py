@@ -7,6 +7,7 @@ from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import blob, icosphere, torus
 from beltrami.parameterization.boundary import place_boundary
 from beltrami.parameterization.certificate import certify
+from beltrami.parameterization.conformal import least_squares_conformal
 from beltrami.parameterization.distortion import distortion
 from beltrami.parameterization.harmonic import harmonic
 from beltrami.parameterization.parameterize import parameterize
@@ -38,6 +39,17 @@ def test_the_circle_by_arc_length_is_the_same():
     (loop,) = mesh.boundary_loops
     theirs = igl.map_vertices_to_circle(arrays(mesh)[0], loop.astype(np.int32))
     np.testing.assert_allclose(place_boundary(mesh, loop), theirs, atol=1e-12)
+
+
+@pytest.mark.chapter("P76")
+@pytest.mark.parametrize("make", [open_, cur, bad], ids=lambda make: make.__name__)
+def test_least_squares_conformal_maps_are_the_same(make):
+    mesh = make()
+    x, faces = arrays(mesh)
+    ends = np.array([0, mesh.n_vertices // 2])
+    ours = least_squares_conformal(mesh, ends)
+    theirs = igl.lscm(x, faces, ends.astype(np.int32), np.asfortranarray(ours[ends]))[0]
+    np.testing.assert_allclose(ours, theirs, atol=1e-9)
 
 
 @pytest.mark.chapter("P74")

@@ -23,7 +23,11 @@ def parameterize(
     mesh: MeshFile,
     output: TexturedOutput,
     method: Annotated[
-        str, typer.Option(help="auto; free: with a free boundary; tutte: one solve.")
+        str,
+        typer.Option(
+            help="auto; free: with a free boundary; tutte: one solve; least_squares_conformal; "
+            "spectral_conformal."
+        ),
     ] = "auto",
     boundary: Annotated[
         str, typer.Option(help="circle, square, or the number of sides of a regular polygon.")
