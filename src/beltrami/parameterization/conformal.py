@@ -65,13 +65,13 @@ def least_squares_conformal(mesh: Mesh, held: Integers | None = None) -> Floats:
     mesh
         A disk of n vertices.
     held
-        The two vertices; by default two of the boundary that are far apart.
+        The two vertices; by default two that halve the boundary.
 
     Returns
     -------
     (n, 2) positions; the area of the image is that of the surface.
     """
-    ends = _far_apart(mesh) if held is None else held
+    ends = _opposite(mesh) if held is None else held
     x = mesh.vertices[ends]
     z = np.zeros((mesh.n_vertices, 2))
     z[ends[1], 0] = np.linalg.norm(x[1] - x[0]) or 1.0
@@ -138,13 +138,13 @@ def spectral_conformal(mesh: Mesh) -> Floats:
     raise ConvergenceError("the eigenvector of the conformal energy does not settle", history)
 
 
-def _far_apart(mesh: Mesh) -> Integers:
-    """Return two vertices of the boundary, the second the farthest from the first, and back."""
+def _opposite(mesh: Mesh) -> Integers:
+    """Return the first vertex of the boundary and the one half of its length away."""
     loop = mesh.boundary_loops[0]
     x = mesh.vertices[loop]
-    one = int(np.linalg.norm(x - x[0], axis=1).argmax())
-    other = int(np.linalg.norm(x - x[one], axis=1).argmax())
-    return loop[[one, other if other != one else (one + 1) % len(loop)]]
+    way = np.cumsum(np.linalg.norm(np.roll(x, -1, axis=0) - x, axis=1))
+    middle = int(np.abs(way[:-1] - way[-1] / 2).argmin()) + 1
+    return loop[[0, middle]]
 
 
 def _boundary_mass(mesh: Mesh) -> Floats:
