@@ -14,7 +14,7 @@ MAPS = {
     "circle, combinatorial": {"method": "tutte", "weights": "combinatorial"},
     "circle, mean value": {"method": "tutte", "weights": "mean_value"},
     "square, cotangent": {"method": "tutte", "weights": "cotangent", "boundary": "square"},
-    "circle, reweighted": {},
+    "circle, relaxed": {},
     "free boundary": {"method": "free"},
 }
 

@@ -104,14 +104,14 @@ def test_components_lie_apart_in_the_proportion_of_their_areas():
 
 
 def test_other_weights_are_tried_where_the_map_is_bad():
-    """A tube that is not long enough to fold: cotangents alone leave a hundred thousand."""
-    mesh = tube(12, 190)
+    """A tube so long that cotangents alone fold, and other positive weights do not."""
+    mesh = tube(12, 220)
     kinds = ("clamped", "mean_value", "combinatorial")
     maps = [parameterize(mesh, weights=kind, cut=False, strict=False) for kind in kinds]
-    alone = [psi.distortion.symmetric_dirichlet for psi in maps]
-    best = parameterize(mesh).distortion.symmetric_dirichlet
-    assert best == min(alone)
-    assert best < 0.01 * alone[0]
+    assert len(maps[0].flipped) > 0
+    alone = [psi.distortion.symmetric_dirichlet for psi in maps[1:] if psi.is_bijective]
+    assert len(alone) == 2
+    assert parameterize(mesh, cut=False).distortion.symmetric_dirichlet == min(alone)
 
 
 def test_a_seam_saves_what_rounding_folds():

@@ -14,7 +14,7 @@ from beltrami.mesh.mesh import Mesh
 from beltrami.operators.weights import Weigher, edge_weights
 from beltrami.parameterization.boundary import Curve, place_boundary, refuse_dividing_edges
 from beltrami.parameterization.conformal import least_squares_conformal, spectral_conformal
-from beltrami.parameterization.harmonic import solve_harmonic
+from beltrami.parameterization.harmonic import is_symmetric, solve_harmonic
 from beltrami.parameterization.layout import part_of
 from beltrami.parameterization.relaxation import relax
 from beltrami.parameterization.reweighting import Step, assess, reweighted
@@ -22,6 +22,8 @@ from beltrami.parameterization.schnyder import draw
 
 CONFORMAL = ("least_squares_conformal", "spectral_conformal")
 _STEPS = 30  # of reweighting, at most
+_ENOUGH = 30.0  # energy from which Newton's steps are the faster ones
+_SETTLED = 3e-3  # decrease in a step at which the relaxation inside a fixed boundary stops
 _BAD = 50.0  # symmetric Dirichlet energy above which other weights are tried
 _RELAXATIONS = 50  # steps of it, at most
 _RESCUES = 8  # seams to be tried where a map folds
@@ -82,9 +84,7 @@ def map_component(current: Cut, uv: Floats, faces: Booleans, asked: Request) -> 
     added = current.mesh.n_vertices - len(uv)
     uv = np.concatenate([uv, np.zeros((added, 2))])
     drawn = best.flips > 0 and asked.rescue and asked.draw
-    start = draw(part.topology) if drawn else best.uv
-    free = drawn or asked.method == "free"
-    uv[number] = relax(part, start, _RELAXATIONS)[0] if free else start
+    uv[number] = relax(part, draw(part.topology), _RELAXATIONS)[0] if drawn else best.uv
     return Mapped(current, uv, drawn)
 
 
@@ -109,14 +109,26 @@ def _solved(part: Mesh, number: Integers, asked: Request) -> Step:
         refuse_dividing_edges(part, loop, placed)
     steps: list[Step] = []
     for kind in asked.weights:
-        W = edge_weights(part, kind)
+        W, symmetric = edge_weights(part, kind), is_symmetric(kind)
         if asked.method == "tutte":
-            steps.append(assess(part, solve_harmonic(W, loop, placed, part.vertices)))
+            uv = solve_harmonic(W, loop, placed, part.vertices, symmetric=symmetric)
+            steps.append(assess(part, uv))
         else:
-            steps.append(reweighted(part, W, loop, placed, _STEPS)[0])
+            start, _ = reweighted(
+                part, W, loop, placed, _STEPS, enough=_ENOUGH, symmetric=symmetric
+            )
+            steps.append(_relaxed(part, start, asked) if not start.flips else start)
         if steps[-1].rank <= (0, _BAD):
             break
     return min(steps, key=lambda step: step.rank)
+
+
+def _relaxed(part: Mesh, start: Step, asked: Request) -> Step:
+    """Lower the energy, with a free boundary or inside the one that was asked for."""
+    if asked.method == "free":
+        return assess(part, relax(part, start.uv, _RELAXATIONS)[0])
+    held = part.topology.on_boundary
+    return assess(part, relax(part, start.uv, _RELAXATIONS, held, _SETTLED)[0])
 
 
 def _seams(part: Mesh, step: Step) -> list[Integers]:

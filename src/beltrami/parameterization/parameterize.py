@@ -24,7 +24,7 @@ _DEFAULTS: dict[str, tuple[str | Weigher, ...]] = {
     "tutte": ("mean_value",),
     "free": ("clamped", "mean_value", "combinatorial"),
 }
-_WORDS = {"auto": "reweighted from", "tutte": "Tutte,", "free": "free boundary, from"}
+_WORDS = {"auto": "relaxed from", "tutte": "Tutte,", "free": "free boundary, from"}
 
 
 def parameterize(
@@ -54,18 +54,18 @@ def parameterize(
     mesh
         Any oriented surface. What is not a disk is cut into one by ``cut_to_disk``.
     method
-        ``"auto"``: weights are corrected until the distortion stops falling (see
-        ``reweighted``); ``"tutte"``: one solve with the weights as they are; ``"free"``: then let
-        the boundary go, and lower the symmetric Dirichlet energy as far as it falls without a
-        fold or a crossing of the boundary (see ``relax``): the least distortion, in the unit of
-        length of the mesh. ``"least_squares_conformal"`` and ``"spectral_conformal"``: angles are
+        ``"tutte"``: one solve with the weights as they are. ``"auto"``: weights are corrected
+        while the map is bad (see ``reweighted``), then the symmetric Dirichlet energy is lowered
+        as far as it falls without a fold, the boundary held (see ``relax``). ``"free"``: the
+        boundary is let go, and does not cross itself: the least distortion, in the unit of length
+        of the mesh. ``"least_squares_conformal"`` and ``"spectral_conformal"``: angles are
         kept as far as a free boundary allows, areas are not, and the boundary may overlap (see
         ``conformal_energy``); the unit of length is that of the mesh.
     weights
         ``"combinatorial"``, ``"distance"``, ``"mean_value"``, ``"clamped"`` or a callable: all
         positive. ``"cotangent"`` is negative where two angles add to more than π, and may fold
         (E90). By default ``"mean_value"`` for the method ``"tutte"``; else ``"clamped"``, and
-        where that folds or has an energy above 50 the best of it, ``"mean_value"`` and
+        where that folds or ends at an energy above 50 the best of it, ``"mean_value"`` and
         ``"combinatorial"``.
     boundary
         ``"circle"``, ``"square"``, a number of sides or the corners of a convex polygon: see
@@ -112,8 +112,9 @@ def parameterize(
 
     Notes
     -----
-    One sparse factorisation for both coordinates at each step. Symmetric weights stay symmetric
-    and go to Cholesky, several times faster than LU, which those of the mean value need.
+    Tutte's maps take one sparse factorisation for both coordinates. Symmetric weights go to
+    Cholesky, several times faster than LU, which those of the mean value need. Steps of
+    relaxation take one of twice as many unknowns.
     Conformal maps take one factorisation of twice as many unknowns.
 
     Examples
@@ -121,7 +122,7 @@ def parameterize(
     >>> from beltrami.mesh.shapes import torus
     >>> psi = parameterize(torus(24, 16))
     >>> psi.is_bijective, len(psi.cut_edges), round(psi.distortion.symmetric_dirichlet, 1)
-    (True, 40, 2.4)
+    (True, 40, 2.3)
     """
     check_name("method of parameterisation", method, METHODS)
     require_sound(require_mesh(mesh, "a parameterisation"))
