@@ -25,7 +25,7 @@ _STEPS = 30  # of reweighting, at most
 _ENOUGH = 30.0  # energy from which Newton's steps are the faster ones
 _SETTLED = 3e-3  # decrease in a step at which the relaxation inside a fixed boundary stops
 _BAD = 50.0  # symmetric Dirichlet energy above which other weights are tried
-_RELAXATIONS = 50  # steps of it, at most
+_RELAXATIONS = 100  # steps of it, at most
 _RESCUES = 8  # seams to be tried where a map folds
 _WORTH = 0.95  # a seam is kept if it lowers the distortion to this part
 

@@ -6,9 +6,10 @@ import math
 
 import numpy as np
 
-from beltrami._arrays import Booleans, Floats, Integers
+from beltrami._arrays import Booleans, Floats
 from beltrami.errors import BeltramiError
 from beltrami.mesh.mesh import Mesh
+from beltrami.parameterization.barrier import Barrier, boundary_barrier
 from beltrami.parameterization.block_pattern import BlockPattern, block_pattern
 from beltrami.parameterization.crossings import crossings
 from beltrami.parameterization.isometric_energy import (
@@ -70,16 +71,17 @@ def relax(
     sums = energy.sums(x)
     if free.any() and all(map(math.isfinite, sums)):
         pattern, plan = block_pattern(mesh, free), None
-        edges = mesh.topology.boundary_edges if held is None else mesh.edges[:0]
         while done < steps:
             t = _best_scale(sums)
-            direction, slope, plan = _newton(energy, x, t, pattern, free, plan)
-            found = _shortened(energy, x, t, sums, direction, slope, edges)
+            barrier = boundary_barrier(mesh, x) if held is None else None
+            direction, slope, plan = _newton(energy, x, t, barrier, pattern, plan)
+            found = _shortened(energy, x, t, barrier, direction, slope)
             if found is None:
                 break
             done += 1
-            before, (x, sums) = sums, found
-            if math.sqrt(sums[0] * sums[1]) > (1 - settled) * math.sqrt(before[0] * before[1]):
+            x, before, after = found
+            sums = energy.sums(x)
+            if after > (1 - settled) * before:
                 break
     return (x if held is not None else x * _best_scale(sums)), done
 
@@ -94,12 +96,15 @@ def _newton(
     energy: IsometricEnergy,
     x: Floats,
     t: float,
+    barrier: Barrier | None,
     pattern: BlockPattern,
-    free: Booleans,
     plan: Elimination | None,
 ) -> tuple[Floats, float, Elimination]:
     """Return the direction of Newton's step, the slope along it, and the order of elimination."""
+    free = pattern.number >= 0
     gradient, entries = energy.derivatives(x, t, pattern)
+    if barrier is not None:
+        barrier.add_derivatives(x, pattern, gradient, entries)
     diagonal = np.add.outer(pattern.vertex_slots, [0, 1]) + np.multiply.outer(
         pattern.widths, [0, 1]
     )
@@ -122,33 +127,32 @@ def _shortened(
     energy: IsometricEnergy,
     x: Floats,
     t: float,
-    sums: tuple[float, float],
+    barrier: Barrier | None,
     direction: Floats,
     slope: float,
-    edges: Integers,
-) -> tuple[Floats, tuple[float, float]] | None:
-    """Return the positions after the longest allowed of the steps tried, and their energy."""
+) -> tuple[Floats, float, float] | None:
+    """Return the positions after the longest allowed step, and the energies before and after."""
     mesh = energy.mesh
+    edges = mesh.edges[:0] if barrier is None else barrier.edges
     longest = 0.9 * first_collapse(mesh, x, direction)
     step = min(1.0, longest)
-    start = sums[0] * t**2 + sums[1] / t**2
 
-    def falls_to(step: float) -> tuple[Floats, tuple[float, float], float]:
-        moved = x + step * direction
-        new = energy.sums(moved)
-        return moved, new, new[0] * t**2 + new[1] / t**2
+    def total(y: Floats) -> float:
+        grown, shrunk = energy.sums(y)
+        return grown * t**2 + shrunk / t**2 + (0.0 if barrier is None else barrier.energy(y))
 
-    here = falls_to(step)
-    while here[2] < start and _LONGER * step < longest:
-        farther = falls_to(_LONGER * step)
-        if not farther[2] < here[2]:
+    start, here = total(x), total(x + step * direction)
+    while here < start and _LONGER * step < longest:
+        farther = total(x + _LONGER * step * direction)
+        if not farther < here:
             break
         step, here = _LONGER * step, farther
     while step > _SHORTEST:
-        if here[2] < start + 1e-4 * step * slope:
-            a, b, c = here[0][mesh.faces].transpose(1, 0, 2)
-            if (orientation(a, b, c) > 0).all() and not len(crossings(here[0], edges)):
-                return here[0], here[1]
+        if here < start + 1e-4 * step * slope:
+            moved = x + step * direction
+            a, b, c = moved[mesh.faces].transpose(1, 0, 2)
+            if (orientation(a, b, c) > 0).all() and not len(crossings(moved, edges)):
+                return moved, start, here
         step /= 2
-        here = falls_to(step)
+        here = total(x + step * direction)
     return None
