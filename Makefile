@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 
-.PHONY: tour test test-heavy test-browser docs-map lint bench clean
+.PHONY: tour test test-heavy test-browser docs-map lint bench bench-large clean
 
 $(VENV)/.installed: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -39,6 +39,9 @@ bench:  ## against the peers, in an environment of their own; writes BENCHMARKS.
 	.venv-bench/bin/python -m pip install --quiet --editable ".[all]" --group bench
 	-.venv-bench/bin/python -m pip install --quiet --group bench-cholmod  # Debian: libsuitesparse-dev
 	.venv-bench/bin/python -m benchmarks
+
+bench-large:  ## solver and spectra to 2.1M vertices, after `make bench`; writes BENCHMARKS-LARGE.md
+	.venv-bench/bin/python -m benchmarks --large
 
 clean:
 	rm -rf $(VENV) .venv-bench tour dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
