@@ -130,8 +130,13 @@ def _pymeshlab(V: Array, F: Array, name: str) -> Array:
 
 
 def _xatlas(V: Array, F: Array) -> Outcome:
-    """Its charts are many maps: valid if all of them are bijections, apart from each other."""
+    """Its charts are many maps: valid if all of them are bijections, apart from each other.
+
+    It cuts by itself, so it gets the surface without our cut.
+    """
     bt = package("beltrami")
+    V, welded = np.unique(V, axis=0, return_inverse=True)
+    F = welded.ravel()[F]
     start = time.process_time()
     try:
         atlas = package("xatlas").Atlas()

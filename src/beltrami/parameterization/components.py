@@ -26,6 +26,8 @@ _ENOUGH = 30.0  # energy from which Newton's steps are the faster ones
 _SETTLED = 3e-3  # decrease in a step at which the relaxation inside a fixed boundary stops
 _BAD = 50.0  # symmetric Dirichlet energy above which other weights are tried
 _RELAXATIONS = 100  # steps of it, at most
+_FROM_DRAWING = 300  # steps of relaxation that make a map of a drawing
+_AT_REST = 1e-5  # decrease in a step at which they stop
 _RESCUES = 8  # seams to be tried where a map folds
 _WORTH = 0.95  # a seam is kept if it lowers the distortion to this part
 
@@ -84,7 +86,7 @@ def map_component(current: Cut, uv: Floats, faces: Booleans, asked: Request) -> 
     added = current.mesh.n_vertices - len(uv)
     uv = np.concatenate([uv, np.zeros((added, 2))])
     drawn = best.flips > 0 and asked.rescue and asked.draw
-    uv[number] = relax(part, draw(part.topology), _RELAXATIONS)[0] if drawn else best.uv
+    uv[number] = _drawn(part) if drawn else best.uv
     return Mapped(current, uv, drawn)
 
 
@@ -129,6 +131,11 @@ def _relaxed(part: Mesh, start: Step, asked: Request) -> Step:
         return assess(part, relax(part, start.uv, _RELAXATIONS)[0])
     held = part.topology.on_boundary
     return assess(part, relax(part, start.uv, _RELAXATIONS, held, _SETTLED)[0])
+
+
+def _drawn(part: Mesh) -> Floats:
+    """Draw a disk without its geometry, then relax it to it."""
+    return relax(part, draw(part.topology), _FROM_DRAWING, settled=_AT_REST)[0]
 
 
 def _seams(part: Mesh, step: Step) -> list[Integers]:
