@@ -89,10 +89,10 @@ def test_a_boundary_slides_along_itself(monkeypatch):
     mesh = Mesh(np.stack([r * np.cos(t), r * np.sin(t), 0.02 * t], axis=1), strip.faces)
     spiral = (r + 0.16 * t)[:, None] * np.stack([np.cos(t), np.sin(t)], axis=1)
     assert certify(mesh.topology, spiral).is_bijective
-    x, _ = relax(mesh, spiral, 100)
+    x, _ = relax(mesh, spiral, 100, None, 1e-4)
     assert certify(mesh.topology, x).is_bijective
     monkeypatch.setattr(relaxation, "boundary_barrier", without_reach)
-    stuck, _ = relax(mesh, spiral, 100)
+    stuck, _ = relax(mesh, spiral, 100, None, 1e-4)
     assert certify(mesh.topology, stuck).is_bijective
     reached, left = (distortion(mesh, at).symmetric_dirichlet - 1 for at in (x, stuck))
 

@@ -128,7 +128,9 @@ def test_a_fixed_boundary_stays_and_the_inside_is_stationary():
     gradient, _ = derivatives(disk, x, t, ~held)
     whole, _ = derivatives(disk, start.uv, t, ~held)
     assert np.abs(gradient).max() < 1e-4 * np.abs(whole).max()
-    assert relax(disk, start.uv, 50, np.ones(disk.n_vertices, bool))[1] == 0  # nothing can move
+    assert (
+        relax(disk, start.uv, 50, np.ones(disk.n_vertices, bool), 1e-4)[1] == 0
+    )  # nothing can move
 
 
 @pytest.mark.chapter("P74")
@@ -163,13 +165,13 @@ def test_the_boundary_does_not_cross_itself(monkeypatch):
     s = 1.4 * t
     ring = np.stack([np.cos(s), np.sin(s), 0.2 * s], axis=1)
     wound = start.with_vertices(np.concatenate([ring, ring * [1.3, 1.3, 1]]))
-    x, steps = relax(wound, start.vertices, 60)
+    x, steps = relax(wound, start.vertices, 60, None, 1e-4)
     assert steps > 0
     assert certify(wound.topology, x).is_bijective
     before = distortion(wound, start.vertices).symmetric_dirichlet
     assert distortion(wound, x).symmetric_dirichlet < before
     monkeypatch.setattr(relaxation, "crossings", lambda x, edges: edges[:0])
-    unchecked = certify(wound.topology, relax(wound, start.vertices, 60)[0])
+    unchecked = certify(wound.topology, relax(wound, start.vertices, 60, None, 1e-4)[0])
     assert len(unchecked.flipped) == 0
     assert len(unchecked.crossings) > 0
 
@@ -177,7 +179,7 @@ def test_the_boundary_does_not_cross_itself(monkeypatch):
 def test_what_folds_at_the_start_is_left_as_it_is():
     mesh = open_()
     x = mesh.vertices * [-1, 1]
-    found, steps = relax(mesh, x, 10)
+    found, steps = relax(mesh, x, 10, None, 1e-4)
     assert steps == 0
     np.testing.assert_allclose(found, x, rtol=1e-9)
 

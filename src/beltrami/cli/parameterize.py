@@ -51,6 +51,10 @@ def parameterize(
     no_cut: Annotated[
         bool, typer.Option("--no-cut", help="Refuse what is not a disk, rather than cut it.")
     ] = False,
+    fill_holes: Annotated[
+        bool,
+        typer.Option("--fill-holes", help="Let all boundaries but the longest be holes: no cut."),
+    ] = False,
     allow_folds: Annotated[
         bool, typer.Option("--allow-folds", help="Write the map even if it is no bijection.")
     ] = False,
@@ -74,6 +78,7 @@ def parameterize(
             bulge=bulge,
             seams=seams,
             cut=not no_cut,
+            holes="fill" if fill_holes else "cut",
             strict=not allow_folds,
         )
     write_mesh(output, found.textured)

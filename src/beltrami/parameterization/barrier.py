@@ -119,6 +119,8 @@ def _visit(
             bend = weights[e] * (2 * ratio * ratio + 4 * (ratio - 1) * ratio) / distance**2
             for u, share in ((v, 1.0), (i, along - 1.0), (j, -along)):
                 k = number[u]
+                if k < 0:
+                    continue
                 gradient[k, 0] += share * slope * nx
                 gradient[k, 1] += share * slope * ny
                 size = 2 * abs(share) * bend

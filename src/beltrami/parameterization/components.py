@@ -24,10 +24,11 @@ CONFORMAL = ("least_squares_conformal", "spectral_conformal")
 _STEPS = 30  # of reweighting, at most
 _ENOUGH = 30.0  # energy from which Newton's steps are the faster ones
 _SETTLED = 3e-3  # decrease in a step at which the relaxation inside a fixed boundary stops
+_TO_THE_LAST = 1e-4  # likewise, with a free boundary
 _BAD = 50.0  # symmetric Dirichlet energy above which other weights are tried
 _RELAXATIONS = 100  # steps of it, at most
 _FROM_DRAWING = 300  # steps of relaxation that make a map of a drawing
-_AT_REST = 1e-5  # decrease in a step at which they stop
+_AT_REST = 1e-5  # decrease in a step at which these stop
 _RESCUES = 8  # seams to be tried where a map folds
 _WORTH = 0.95  # a seam is kept if it lowers the distortion to this part
 
@@ -127,15 +128,18 @@ def _solved(part: Mesh, number: Integers, asked: Request) -> Step:
 
 def _relaxed(part: Mesh, start: Step, asked: Request) -> Step:
     """Lower the energy, with a free boundary or inside the one that was asked for."""
-    if asked.method == "free":
-        return assess(part, relax(part, start.uv, _RELAXATIONS)[0])
-    held = part.topology.on_boundary
-    return assess(part, relax(part, start.uv, _RELAXATIONS, held, _SETTLED)[0])
+    held = None if asked.method == "free" else part.topology.on_boundary
+    return assess(part, settle(part, start.uv, held))
+
+
+def settle(part: Mesh, uv: Floats, held: Booleans | None) -> Floats:
+    """Relax a map, to the last with a free boundary."""
+    return relax(part, uv, _RELAXATIONS, held, _TO_THE_LAST if held is None else _SETTLED)[0]
 
 
 def _drawn(part: Mesh) -> Floats:
     """Draw a disk without its geometry, then relax it to it."""
-    return relax(part, draw(part.topology), _FROM_DRAWING, settled=_AT_REST)[0]
+    return relax(part, draw(part.topology), _FROM_DRAWING, None, _AT_REST)[0]
 
 
 def _seams(part: Mesh, step: Step) -> list[Integers]:

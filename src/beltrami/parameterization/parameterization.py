@@ -65,6 +65,11 @@ class Parameterization:
         return self.certificate.flipped
 
     @property
+    def overlaps(self) -> Integers:
+        """(q, 2, 2) pairs of boundary edges of ``mesh`` whose images meet where they should not."""
+        return self.certificate.crossings
+
+    @property
     def is_bijective(self) -> bool:
         """Whether the map is a bijection onto its image, decided exactly."""
         return self.certificate.is_bijective

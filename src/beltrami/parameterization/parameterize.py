@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import as_indices
+from beltrami._arrays import Floats, as_indices
 from beltrami.errors import MeshError, NotADiskError, check_name
 from beltrami.mesh.cut import Cut
 from beltrami.mesh.door import require_mesh
@@ -14,10 +14,12 @@ from beltrami.mesh.tree_cotree import cut_to_disk
 from beltrami.operators.soundness import refuse_unreferenced, require_sound
 from beltrami.operators.weights import Weigher
 from beltrami.parameterization.boundary import Curve
-from beltrami.parameterization.components import CONFORMAL, Request, map_component
-from beltrami.parameterization.layout import side_by_side
+from beltrami.parameterization.components import CONFORMAL, Request, map_component, settle
+from beltrami.parameterization.holes import Filling, emptied, fill_holes
+from beltrami.parameterization.layout import part_of, side_by_side
 from beltrami.parameterization.parameterization import Parameterization, certified
 
+HOLES = ("cut", "fill")
 METHODS = ("auto", "tutte", "free", *CONFORMAL)
 _DEFAULTS: dict[str, tuple[str | Weigher, ...]] = {
     "auto": ("clamped", "mean_value", "combinatorial"),
@@ -37,6 +39,7 @@ def parameterize(
     corners: ArrayLike | None = None,
     bulge: float = 0.0,
     cut: bool = True,
+    holes: str = "cut",
     seams: int = 0,
     strict: bool = True,
 ) -> Parameterization:
@@ -80,6 +83,9 @@ def parameterize(
         one side, 0.01 helps.
     cut
         False refuses what is not a disk, rather than cutting it.
+    holes
+        ``"cut"`` joins all boundaries of a component by cuts; ``"fill"`` closes all but the
+        longest for the time of the map: then they are holes of the image, of any shape.
     seams
         Up to so many more cuts in each component, from the boundary to the vertex that is
         stretched most, as long as each lowers the distortion by 5 %.
@@ -134,14 +140,36 @@ def parameterize(
         _refuse_what_is_not_used(mesh, method, weights, boundary, corners, bulge)
     kinds = _DEFAULTS.get(method, ()) if weights is None else (weights,)
     asked = Request(method, kinds, boundary, spacing, corners, bulge, seams, cut, draw=strict)
-    current = cut_to_disk(mesh) if cut else _as_it_is(mesh)
+    check_name("treatment of holes", holes, HOLES)
+    filling = fill_holes(mesh) if holes == "fill" else None
+    given = mesh if filling is None else filling.mesh
+    current = cut_to_disk(given) if cut else _as_it_is(given)
     labels = current.mesh.components()
     uv, drawn = np.zeros((current.mesh.n_vertices, 2)), 0
     for component in range(int(labels.max()) + 1):
         found = map_component(current, uv, labels == component, asked)
         current, uv, drawn = found.cut, found.uv, drawn + found.drawn
+    if filling is not None:
+        current, uv = _without(filling, current, uv, asked)
+        labels = current.mesh.components()
     uv = side_by_side(current.mesh, uv, labels)
     return certified(mesh, current, uv, _words(method, weights, drawn), strict=strict)
+
+
+def _without(filling: Filling, current: Cut, uv: Floats, asked: Request) -> tuple[Cut, Floats]:
+    """Take the fillings of holes out, and relax what they held."""
+    rim = np.zeros(filling.mesh.n_vertices, np.bool_)
+    rim[current.vertex_map[current.mesh.topology.on_boundary]] = True
+    rim = rim[: filling.whole.mesh.n_vertices]
+    current, uv = emptied(filling, current, uv)
+    if not asked.rescue:
+        return current, uv
+    labels = current.mesh.components()
+    for component in range(int(labels.max()) + 1):
+        part, number = part_of(current.mesh, labels == component)
+        held = None if asked.method == "free" else rim[current.vertex_map[number]]
+        uv[number] = settle(part, uv[number], held)
+    return current, uv
 
 
 def _words(method: str, weights: str | Weigher | None, drawn: int) -> str:

@@ -32,10 +32,10 @@ def relax(
     mesh: Mesh,
     uv: Floats,
     steps: int,
-    held: Booleans | None = None,
-    settled: float = 1e-4,
+    held: Booleans | None,
+    settled: float,
 ) -> tuple[Floats, int]:
-    r"""Lower the symmetric Dirichlet energy of a bijection of a disk; return it and the steps.
+    r"""Lower the symmetric Dirichlet energy of a bijection; return it and the steps.
 
     The energy, :math:`\sum_f A_f (\sigma_1^2 + \sigma_2^2 + \sigma_1^{-2} + \sigma_2^{-2})` at
     the best scale, is infinite where a face collapses. Each step is one of Newton, with the
@@ -46,13 +46,14 @@ def relax(
     Parameters
     ----------
     mesh
-        A disk of n vertices.
+        A surface of n vertices, of which there is such a map.
     uv
         (n, 2) a bijection to start from.
     steps
         How many, at most.
     held
-        (n,) vertices that stay where they are: the boundary, or none.
+        (n,) vertices that stay where they are, or none. A boundary that may move does not cross
+        itself, nor one that is held.
     settled
         It stops when the energy falls by less than this part of itself.
 
@@ -71,9 +72,10 @@ def relax(
     sums = energy.sums(x)
     if free.any() and all(map(math.isfinite, sums)):
         pattern, plan = block_pattern(mesh, free), None
+        loose = bool(free[mesh.topology.on_boundary].any())
         while done < steps:
             t = _best_scale(sums)
-            barrier = boundary_barrier(mesh, x) if held is None else None
+            barrier = boundary_barrier(mesh, x) if loose else None
             direction, slope, plan = _newton(energy, x, t, barrier, pattern, plan)
             found = _shortened(energy, x, t, barrier, direction, slope)
             if found is None:
