@@ -22,9 +22,11 @@ from beltrami.mesh.mesh import Mesh
 from beltrami.operators.weights import Weigher, edge_weights
 from beltrami.solvers.cholesky import factorize_cholesky
 from beltrami.solvers.elimination import Elimination
-from beltrami.solvers.factorize import factorize
-from beltrami.solvers.matrix import as_matrix
+from beltrami.solvers.factorize import SMALL, factorize
 from beltrami.solvers.ordering import as_positions, order
+
+_PIVOT = 1e-12  # of a matrix with a diagonal of ones: smaller ones are looked at more closely
+_RESIDUAL = 1e-13
 
 
 def harmonic(
@@ -78,7 +80,25 @@ def harmonic(
     if len(np.unique(at)) != len(at):
         raise MeshError("vertices are held twice", vertices=at[np.bincount(at)[at] > 1])
     W = edge_weights(mesh, weights)
-    return solve_harmonic(W, at, given, mesh.vertices, symmetric=is_symmetric(weights))
+    try:
+        return solve_harmonic(W, at, given, mesh.vertices, symmetric=is_symmetric(weights))
+    except SingularMatrixError:
+        _require_held(mesh, at)
+        raise
+
+
+def _require_held(mesh: Mesh, held: Integers) -> None:
+    """Raise MeshError, with a vertex of each component in which nothing is held."""
+    label = np.full(mesh.n_vertices, -1)
+    label[mesh.faces.ravel()] = np.repeat(mesh.components(), 3)
+    names, first = np.unique(label, return_index=True)
+    without = ~np.isin(names, label[held])
+    if without.any():
+        raise MeshError(
+            "nothing is held in some components, so that any constant would do",
+            vertices=first[without],
+            remedy="Hold a vertex in each: of these components the first vertices are named.",
+        ) from None
 
 
 def is_symmetric(weights: str | Weigher) -> bool:
@@ -98,8 +118,8 @@ def solve_harmonic(
     """Solve for the vertices that are not held; ``positions`` order the elimination.
 
     The system is scaled to a unit diagonal from both sides, so that weights of any unit do; a
-    symmetric W stays symmetric. Where it is known to be, it need not be turned into columns; with
-    a plan for that pattern it is neither ordered nor tried again.
+    symmetric W stays symmetric. Where it is known to be, it need not be turned into columns; a
+    plan is an order for that pattern, and says that something is held in each component.
     """
     n = W.shape[0]
     if positions.shape[0] != n:
@@ -121,7 +141,7 @@ def plan_harmonic(W: csr_array, held: Integers, positions: Floats) -> Eliminatio
     if not len(inner):
         return None
     A, _, _ = _system(W, np.zeros((W.shape[0], 1)), inner, number, True)
-    return order(as_matrix(A), as_positions(positions[inner], len(inner)), "auto")
+    return order(csc_array(A), as_positions(positions[inner], len(inner)), "auto")
 
 
 def _free(n: int, held: Integers) -> tuple[Integers, Integers]:
@@ -147,7 +167,7 @@ def _system(
     count = _fill_system(
         W.indptr, W.indices, W.data, number, root, np.sign(sums), psi, indptr, indices, data, right
     )
-    form = csc_array if symmetric else csr_array
+    form = csc_array if symmetric and (sums[inner] > 0).all() else csr_array
     A = form((data[:count], indices[:count], indptr), shape=(size, size))
     A.has_canonical_format = True  # known: scipy need not look
     return A, right, root
@@ -156,9 +176,16 @@ def _system(
 def _solution(
     A: csr_array | csc_array, right: Floats, positions: Floats, plan: Elimination | None
 ) -> Floats:
-    if plan is not None:
+    """Solve; where A is symmetric, definite and far from singular, the residual is all to check."""
+    if isinstance(A, csc_array) and (plan is not None or A.shape[0] >= SMALL):
         with suppress(NotPositiveDefiniteError, SingularMatrixError):
-            return factorize_cholesky(as_matrix(A), plan).solve(right)
+            own = plan or order(A, as_positions(positions, len(right)), "auto")
+            factor = factorize_cholesky(A, own)
+            y = factor.solve(right)
+            size = 2 * np.abs(y).max() + np.abs(right).max()  # no row of A adds to more than 2
+            regular = plan is not None or factor.pivots.min() > _PIVOT
+            if regular and np.abs(right - A @ y).max() <= _RESIDUAL * size:
+                return y
     return factorize(A, positions).solve(right)
 
 
