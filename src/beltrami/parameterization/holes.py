@@ -1,4 +1,4 @@
-"""Holes filled for the time of a map: a surface with many boundaries without a cut (l. 657)."""
+"""Holes: filled for as long as a map is made, so that no cut has to lead to them."""
 
 from __future__ import annotations
 
@@ -6,86 +6,92 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from beltrami._arrays import Floats, Integers, read_only
+from beltrami._arrays import Booleans, Floats, Integers, read_only
 from beltrami.mesh.cut import Cut, cut_along
 from beltrami.mesh.mesh import Mesh
 
-_LIFT = 0.05  # of the middle of a filling out of its hole, over the length around
+HOLES = ("cut", "fill")
+_HEIGHT = 0.01  # of the tip above a hole, over its length: no fan has a face without area
 
 
 @dataclass(frozen=True, eq=False)
-class Filling:
-    """A surface all but one of whose boundary loops are closed, in each component.
+class Filled:
+    """A surface with a fan of faces over each hole.
 
     Attributes
     ----------
-    mesh
-        The faces of the surface, then the fillings: fans around new vertices, which come last.
-    whole : Cut
-        The surface itself, cut apart where it is not a manifold.
+    mesh : Mesh
+        The vertices and faces of ``apart`` first. It has one coordinate more, which is 0 but for
+        the tips of the fans: a fan has area whatever the shape of the hole.
+    apart : Cut
+        The surface, cut apart where it is not a manifold.
     """
 
     mesh: Mesh
-    whole: Cut
+    apart: Cut
 
 
-def fill_holes(mesh: Mesh) -> Filling | None:
-    """Close all boundary loops of each component but its longest; None if there are none.
+def fill_holes(mesh: Mesh) -> Filled:
+    """Fill all boundary loops but the longest of each component.
 
-    The new vertex of a fan lies at the middle of its loop, a little off the plane of the loop, so
-    that no face of it is flat.
+    Examples
+    --------
+    >>> from beltrami.mesh.shapes import cylinder
+    >>> filled = fill_holes(cylinder(6, 2))
+    >>> filled.mesh.euler_characteristic, len(filled.mesh.boundary_loops), filled.mesh.dimension
+    (1, 1, 4)
     """
-    whole = cut_along(mesh, np.zeros(mesh.topology.n_edges, np.bool_))
-    topology = whole.mesh.topology
-    label = np.empty(topology.n_vertices, np.int64)
-    label[topology.faces.ravel()] = np.repeat(topology.components(), 3)
-    x = np.zeros((topology.n_vertices, max(3, mesh.dimension)))
-    x[:, : mesh.dimension] = whole.mesh.vertices
-    points, fans, seen = [x], [topology.faces], set()
-    for loop in topology.boundary_loops:  # the longest first
-        if int(label[loop[0]]) not in seen:
-            seen.add(int(label[loop[0]]))
+    apart = cut_along(mesh, np.zeros(mesh.topology.n_edges, np.bool_))
+    x, faces = apart.mesh.vertices, apart.mesh.faces
+    label = np.empty(len(x), np.int64)
+    label[faces.ravel()] = np.repeat(apart.mesh.components(), 3)
+    loops = apart.mesh.boundary_loops
+    lengths = [_length(x[loop]) for loop in loops]
+    longest: dict[int, int] = {}
+    for q, loop in enumerate(loops):
+        own = int(label[loop[0]])
+        if own not in longest or lengths[q] > lengths[longest[own]]:
+            longest[own] = q
+    tips: list[Floats] = []
+    fans = [faces]
+    for q, loop in enumerate(loops):
+        if q == longest[int(label[loop[0]])]:
             continue
-        middle = topology.n_vertices + len(points) - 1
-        points.append(_middle(x[loop])[None])
-        fans.append(np.stack([np.roll(loop, -1), loop, np.full(len(loop), middle)], axis=1))
-    if len(fans) == 1:
-        return None
-    return Filling(Mesh(np.concatenate(points), np.concatenate(fans)), whole)
+        tip = np.full(len(loop), len(x) + len(tips))
+        fans.append(np.stack([np.roll(loop, -1), loop, tip], axis=1))
+        tips.append(np.append(x[loop].mean(axis=0), _HEIGHT * lengths[q]))
+    lifted = np.hstack([x, np.zeros((len(x), 1))])
+    return Filled(Mesh(np.vstack([lifted, *tips]), np.concatenate(fans)), apart)
 
 
-def _middle(x: Floats) -> Floats:
-    """Return the mean of a loop of points, lifted along the axis in which they vary least."""
-    mean = x.mean(axis=0)
-    around = np.linalg.norm(np.roll(x, -1, axis=0) - x, axis=1).sum()
-    axis = np.linalg.eigh((x - mean).T @ (x - mean))[1][:, 0]
-    return np.asarray(mean + _LIFT * around * axis)
+def _length(loop: Floats) -> float:
+    return float(np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1).sum())
 
 
-def emptied(filling: Filling, current: Cut, uv: Floats) -> tuple[Cut, Floats]:
-    """Take the fillings out of a cut of the filled surface, and of its map.
+def emptied(filled: Filled, mesh: Mesh, current: Cut, f: Floats) -> tuple[Cut, Floats]:
+    """Take the fans out of a cut of the filled surface and of a function on it.
 
     The first copy of each vertex keeps its number, the others come at the end.
     """
-    whole = filling.whole
-    m, n = whole.mesh.n_faces, whole.mesh.n_vertices
-    faces = current.mesh.faces[:m]
-    kept, local = np.unique(faces, return_inverse=True)
-    before = current.vertex_map[kept]
+    apart = filled.apart
+    n, m = apart.mesh.n_vertices, apart.mesh.n_faces
+    used, local = np.unique(current.mesh.faces[:m], return_inverse=True)
+    before = current.vertex_map[used]
     _, first = np.unique(before, return_index=True)
-    again = np.setdiff1d(np.arange(len(kept)), first)
-    order = np.concatenate([first, again])
-    number = np.empty(len(kept), np.int64)
-    number[order] = np.arange(len(kept))
-    chain: Integers = whole.vertex_map[before[order]]
-    source = whole.mesh
-    data = {name: values[before[order]] for name, values in source.vertex_data.items()}
-    opened = Mesh(
-        source.vertices[before[order]], number[local].reshape(-1, 3), data, source.corner_uv
-    )
-    edges = current.edges[(current.edges < n).all(axis=1)]
-    inner = source.topology.half_edges.edge_face_count == 2
-    keys = source.edges[inner] @ [n, 1]
-    edges = edges[np.isin(np.sort(edges, axis=1) @ [n, 1], keys)]
-    cut = np.concatenate([whole.edges, np.sort(whole.vertex_map[edges], axis=1)])
-    return Cut(opened, read_only(chain), read_only(cut)), uv[kept[order]]
+    order = np.concatenate([first, np.setdiff1d(np.arange(len(used)), first)])
+    number = np.empty(len(used), np.int64)
+    number[order] = np.arange(len(used))
+    vertex_map = apart.vertex_map[before[order]]
+    data = {name: values[vertex_map] for name, values in mesh.vertex_data.items()}
+    faces = number[local].reshape(-1, 3)
+    opened = Mesh(mesh.vertices[vertex_map], faces, data, mesh.corner_uv)
+    inner = current.edges[_both_sides_are_real(current.edges, apart.mesh, n)]
+    edges = np.concatenate([apart.edges, np.sort(apart.vertex_map[inner], axis=1)])
+    return Cut(opened, read_only(vertex_map), read_only(edges)), f[used[order]]
+
+
+def _both_sides_are_real(edges: Integers, mesh: Mesh, n: int) -> Booleans:
+    """Say which edges are inner edges of the surface: not of a fan, and not of the rim of one."""
+    rim = mesh.topology.boundary_edges
+    on_rim = np.isin(edges[:, 0] * n + edges[:, 1], rim[:, 0] * n + rim[:, 1])
+    return np.asarray((edges < n).all(axis=1) & ~on_rim)

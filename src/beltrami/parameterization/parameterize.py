@@ -15,11 +15,10 @@ from beltrami.operators.soundness import refuse_unreferenced, require_sound
 from beltrami.operators.weights import Weigher
 from beltrami.parameterization.boundary import Curve
 from beltrami.parameterization.components import CONFORMAL, Request, map_component, settle
-from beltrami.parameterization.holes import Filling, emptied, fill_holes
+from beltrami.parameterization.holes import HOLES, Filled, emptied, fill_holes
 from beltrami.parameterization.layout import part_of, side_by_side
 from beltrami.parameterization.parameterization import Parameterization, certified
 
-HOLES = ("cut", "fill")
 METHODS = ("auto", "tutte", "free", *CONFORMAL)
 _DEFAULTS: dict[str, tuple[str | Weigher, ...]] = {
     "auto": ("clamped", "mean_value", "combinatorial"),
@@ -84,8 +83,9 @@ def parameterize(
     cut
         False refuses what is not a disk, rather than cutting it.
     holes
-        ``"cut"`` joins all boundaries of a component by cuts; ``"fill"`` closes all but the
-        longest for the time of the map: then they are holes of the image, of any shape.
+        What to do with all boundaries of a component but the longest: ``"cut"`` leads a seam to
+        each; ``"fill"`` closes them with faces that are dropped when the map is made, so that
+        they lie within it as holes, of any shape, and nothing is torn.
     seams
         Up to so many more cuts in each component, from the boundary to the vertex that is
         stretched most, as long as each lowers the distortion by 5 %.
@@ -140,34 +140,36 @@ def parameterize(
         _refuse_what_is_not_used(mesh, method, weights, boundary, corners, bulge)
     kinds = _DEFAULTS.get(method, ()) if weights is None else (weights,)
     asked = Request(method, kinds, boundary, spacing, corners, bulge, seams, cut, draw=strict)
-    check_name("treatment of holes", holes, HOLES)
-    filling = fill_holes(mesh) if holes == "fill" else None
-    given = mesh if filling is None else filling.mesh
+    filled = fill_holes(mesh) if check_name("treatment of holes", holes, HOLES) == "fill" else None
+    if filled is not None and filled.mesh.n_faces == mesh.n_faces:
+        filled = None
+    given = mesh if filled is None else filled.mesh
     current = cut_to_disk(given) if cut else _as_it_is(given)
     labels = current.mesh.components()
     uv, drawn = np.zeros((current.mesh.n_vertices, 2)), 0
     for component in range(int(labels.max()) + 1):
         found = map_component(current, uv, labels == component, asked)
         current, uv, drawn = found.cut, found.uv, drawn + found.drawn
-    if filling is not None:
-        current, uv = _without(filling, current, uv, asked)
+    if filled is not None:
+        current, uv = _without(filled, mesh, current, uv, asked)
         labels = current.mesh.components()
     uv = side_by_side(current.mesh, uv, labels)
     return certified(mesh, current, uv, _words(method, weights, drawn), strict=strict)
 
 
-def _without(filling: Filling, current: Cut, uv: Floats, asked: Request) -> tuple[Cut, Floats]:
+def _without(
+    filled: Filled, mesh: Mesh, current: Cut, uv: Floats, asked: Request
+) -> tuple[Cut, Floats]:
     """Take the fillings of holes out, and relax what they held."""
-    rim = np.zeros(filling.mesh.n_vertices, np.bool_)
-    rim[current.vertex_map[current.mesh.topology.on_boundary]] = True
-    rim = rim[: filling.whole.mesh.n_vertices]
-    current, uv = emptied(filling, current, uv)
+    rim = current.mesh.topology.on_boundary
+    current, values = emptied(filled, mesh, current, np.column_stack([uv, rim]))
+    uv, rim = values[:, :2].copy(), values[:, 2] > 0
     if not asked.rescue:
         return current, uv
     labels = current.mesh.components()
     for component in range(int(labels.max()) + 1):
         part, number = part_of(current.mesh, labels == component)
-        held = None if asked.method == "free" else rim[current.vertex_map[number]]
+        held = None if asked.method == "free" else rim[number]
         uv[number] = settle(part, uv[number], held)
     return current, uv
 
