@@ -95,6 +95,8 @@ def spectral_conformal(mesh: Mesh) -> Floats:
     Spectral conformal parameterization, 2008). It repairs theorem 22, whose two eigenvectors are
     no conformal pair: here both coordinates are one vector.
 
+    Chapter items: P75, P76.
+
     Parameters
     ----------
     mesh
