@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from beltrami.errors import SingularMatrixError
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import cylinder, grid, icosphere, torus
 from beltrami.parameterization import relaxation
@@ -174,6 +175,23 @@ def test_the_boundary_does_not_cross_itself(monkeypatch):
     unchecked = certify(wound.topology, relax(wound, start.vertices, 60, None, 1e-4)[0])
     assert len(unchecked.flipped) == 0
     assert len(unchecked.crossings) > 0
+
+
+def test_lost_pivots_are_no_disaster(monkeypatch):
+    """LU serves where Cholesky does not; where neither does, the map stays as it was."""
+    mesh = open_()
+    x = shaken(mesh, 1e-3)
+    usual, _ = relax(mesh, x, 3, None, 1e-9)
+
+    def fails(*given):
+        raise SingularMatrixError("no pivot")
+
+    monkeypatch.setattr(relaxation, "factorize_cholesky", fails)
+    np.testing.assert_allclose(relax(mesh, x, 3, None, 1e-9)[0], usual, atol=1e-7)
+    monkeypatch.setattr(relaxation, "factorize", fails)
+    same, steps = relax(mesh, x, 3, None, 1e-9)
+    assert steps == 0
+    assert certify(mesh.topology, same).is_bijective
 
 
 def test_what_folds_at_the_start_is_left_as_it_is():

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 
 import numpy as np
+from scipy.sparse import csc_array
 
 from beltrami._arrays import Booleans, Floats
 from beltrami.errors import BeltramiError
@@ -115,14 +117,19 @@ def _newton(
     positions = np.repeat(energy.mesh.vertices[free], 2, axis=0)
     if plan is None:
         plan = order(H, as_positions(positions, pattern.size), "auto")
-    right = -gradient.ravel()
-    try:
-        step = factorize_cholesky(H, plan).solve(right)
-    except BeltramiError:  # so ill-conditioned that a pivot is lost
-        step = factorize(H, positions, "superlu").solve(right)
     direction = np.zeros_like(x)
-    direction[free] = step.reshape(-1, 2)
+    direction[free] = _solution(H, positions, plan, -gradient.ravel()).reshape(-1, 2)
     return direction, float((gradient * direction[free]).sum()), plan
+
+
+def _solution(H: csc_array, positions: Floats, plan: Elimination, right: Floats) -> Floats:
+    """Solve, in another way where a pivot is lost; 0 where that fails too: no step is made then."""
+    try:
+        return factorize_cholesky(H, plan).solve(right)
+    except BeltramiError:
+        with suppress(BeltramiError):
+            return factorize(H, positions, "superlu").solve(right)
+    return np.zeros_like(right)
 
 
 def _shortened(
