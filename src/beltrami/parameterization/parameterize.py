@@ -119,9 +119,8 @@ def parameterize(
     Notes
     -----
     Tutte's maps take one sparse factorisation for both coordinates. Symmetric weights go to
-    Cholesky, several times faster than LU, which those of the mean value need. Steps of
-    relaxation take one of twice as many unknowns.
-    Conformal maps take one factorisation of twice as many unknowns.
+    Cholesky, several times faster than LU, which those of the mean value need. Conformal maps,
+    and each step of relaxation, take one of twice as many unknowns.
 
     Examples
     --------

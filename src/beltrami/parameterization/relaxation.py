@@ -43,7 +43,8 @@ def relax(
     the best scale, is infinite where a face collapses. Each step is one of Newton, with the
     Hessian of each face projected to the semi-definite matrices. It is shortened so that no face
     turns over (J. Smith, S. Schaefer, Bijective parameterization with free boundaries, 2015), the
-    boundary does not cross itself, both decided exactly, and the energy falls.
+    boundary does not cross itself, both decided exactly, and the energy falls; or made longer,
+    as long as it falls. A barrier lets a boundary slide along itself (see ``Barrier``).
 
     Parameters
     ----------
