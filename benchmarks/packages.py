@@ -24,6 +24,7 @@ DISTRIBUTIONS = (
     "scikit-sparse",
     "trimesh",
     "vtk",
+    "xatlas",
     "zstandard",
     "numpy",
     "scipy",

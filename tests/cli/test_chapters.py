@@ -9,6 +9,7 @@ from beltrami.cli.chapters.files import files
 from beltrami.cli.chapters.geodesics import geodesics
 from beltrami.cli.chapters.grid import grid as flat_grid
 from beltrami.cli.chapters.heat import heat
+from beltrami.cli.chapters.interactive import interactive
 from beltrami.cli.chapters.operators import operators
 from beltrami.cli.chapters.spectrum import spectrum
 from beltrami.cli.chapters.surface import surface
@@ -36,7 +37,18 @@ MESHES = {
         np.concatenate([TETRAHEDRON_FACES, np.add(TETRAHEDRON_FACES, 4)]),
     ),
 }
-CHAPTERS = (surface, operators, averaging, flat_grid, heat, spectrum, compression, geodesics, files)
+CHAPTERS = (
+    interactive,
+    surface,
+    operators,
+    averaging,
+    flat_grid,
+    heat,
+    spectrum,
+    compression,
+    geodesics,
+    files,
+)
 
 
 def stage(mesh, folder):

@@ -84,14 +84,15 @@ def _play(stage: Stage) -> list[Chapter]:
     from beltrami.cli.chapters.geodesics import geodesics
     from beltrami.cli.chapters.grid import grid
     from beltrami.cli.chapters.heat import heat
+    from beltrami.cli.chapters.interactive import interactive
     from beltrami.cli.chapters.maps import maps
     from beltrami.cli.chapters.operators import operators
     from beltrami.cli.chapters.spectrum import spectrum
     from beltrami.cli.chapters.surface import surface
 
     acts: tuple[Callable[[Stage], Chapter], ...] = (
-        surface, operators, averaging, grid, heat, spectrum, compression, maps, geodesics,
-        files,
+        interactive, surface, operators, averaging, grid, heat, spectrum, compression, maps,
+        geodesics, files,
     )  # fmt: skip
     played = []
     with waiting("touring") as progress:
