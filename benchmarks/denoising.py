@@ -1,6 +1,6 @@
 """Denoising without a parameter, against peers at the best parameter that knowing the truth finds.
 
-python -m benchmarks.denoising [mesh ...] [--seeds 3] [--output FILE]
+python -m benchmarks.denoising [mesh ...] [--seeds 3]
 
 Noise is white, along the normals, of 0.1, 0.2 and 0.3 mean edge lengths; "Fandisk0.3" is a noisy
 mesh with its truth, as published. Errors are the mean angle of the normals of the faces, in
@@ -19,13 +19,14 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.cases import FOLDER_VARIABLE
+from benchmarks.cases import FOLDER_VARIABLE, plain, subdivided
 from benchmarks.packages import package
 
 LEVELS = (0.1, 0.2, 0.3)
 PAIR = "Fandisk0.3"
-TUNED = ("blob", "cube", "spot", "fertility", "fandisk")
-HELD_OUT = ("sphere", "torus", "camel", "bunny", "pial", "armadillo")
+TUNED = ("blob", "cube", "spot", "fertility", "fandisk", "sphere", "torus", "camel", "pial")
+HELD_OUT = ("ellipsoid", "bumps", "octahedron", "can", "saddle",
+            "beetle", "face", "conte69", "bunny", "armadillo")  # fmt: skip
 FILES = {
     "spot": "spot_triangulated.obj",
     "fertility": "fertility.off",
@@ -35,12 +36,44 @@ FILES = {
     "bunny": "bun_zipper.ply",
     "pial": "pial_left.gii.gz",
     "armadillo": "armadillo.obj",
+    "beetle": "beetle.obj",
+    "face": "face.obj",
+    "conte69": "conte69_32k_lh.gii",
 }
 SHAPES: dict[str, Callable[[Any], Any]] = {
     "blob": lambda shapes: shapes.blob(8000),
     "cube": lambda shapes: shapes.cube(32),
     "sphere": lambda shapes: shapes.icosphere(5),
+    "ellipsoid": lambda shapes: _stretched(shapes.icosphere(4)),
+    "bumps": lambda shapes: _bumpy(shapes.icosphere(5)),
+    "octahedron": lambda shapes: _cut_in_four(shapes.octahedron(), 5),
+    "can": lambda shapes: shapes.cylinder(90, 40, caps=True),
+    "saddle": lambda shapes: _bent(shapes.grid(60, 60, dimension=3)),
 }
+
+
+def _stretched(sphere: Any) -> Any:
+    return sphere.with_vertices(sphere.vertices * [1, 1.7, 0.6])
+
+
+def _cut_in_four(mesh: Any, times: int) -> Any:
+    arrays = plain(mesh)
+    for _ in range(times):
+        arrays = subdivided(*arrays)
+    return package("beltrami").Mesh(*arrays)
+
+
+def _bent(grid: Any) -> Any:
+    x, y, _ = grid.vertices.T
+    height = (x - x.mean()) ** 2 - (y - y.mean()) ** 2
+    return grid.with_vertices(np.stack([x, y, height], axis=1))
+
+
+def _bumpy(sphere: Any) -> Any:
+    x, y, z = 5 * sphere.vertices.T
+    height = np.sin(x + 1) * np.sin(y) + np.cos(y - z)
+    return sphere.with_vertices(sphere.vertices * (1 + 0.06 * height)[:, None])
+
 
 Peer = tuple[str, Any, Callable[[], Any]]
 
