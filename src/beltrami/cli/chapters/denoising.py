@@ -35,7 +35,9 @@ def denoising(stage: Stage) -> Chapter:
     )
     write_mesh(stage.folder / "noisy.ply", noisy)
     write_mesh(stage.folder / "denoised.ply", found.mesh)
-    captions = [f"{name}, {row[1]}, {row[2]}" for name, row in zip(shown, rows, strict=True)]
+    captions = [
+        f"{name}: {row[1]}, angle {row[2][:-1]}" for name, row in zip(shown, rows, strict=True)
+    ]
     return Chapter(
         "Denoising",
         "3.3.1",
@@ -51,7 +53,8 @@ def denoising(stage: Stage) -> Chapter:
                 "blind.png",
                 f"The mesh; noise of {LEVEL} mean edges along its normals; heat at the best of "
                 f"{len(TIMES)} times, chosen knowing the first; denoise, which sees only the "
-                "second. Distances in mean edges, and angles of the normals, from the first.",
+                "second. Distances in mean edges, and angles of the normals in degrees, from the "
+                "first.",
                 [mesh, *shown.values()],
                 caption=["truth", *captions],
                 columns=2,
