@@ -28,8 +28,11 @@ _PROBED = 16_000  # vertices that are probed, at least, by probing small meshes 
 _MOST_PROBES = 2
 _SEED = 20_110
 _SAME = 0.005  # relative change of a level from cut to cut, twice
+_MANY = 10_000  # vertices; of fewer, changes are larger by chance
 _NEAR = 0.15  # relative change of the level by that at most
 _CAUTION = 1.15  # of σ: see the notes of denoise
+_SURE = 2.0  # standard deviations that are no chance
+_SURE_ON_SMOOTH = 4.0  # where there seems to be nothing that low passes cannot do
 _LEAST = 0.005  # weights below this are left out
 AS_IT_IS, ALONG_NORMALS = "as it is", "along normals"  # the first mixture, seconded by itself
 
@@ -60,11 +63,13 @@ class _Trial:
     square: float
 
     def mixture(
-        self, here: list[Floats], there: list[list[Floats]], sigma: float
+        self, here: list[Floats], there: list[list[Floats]], sigma: float, simple: int, sure: float
     ) -> tuple[Floats, float]:
         """Return the best mixture of the positions ``here``, and its risk.
 
-        ``there`` is what they are for the changed copies.
+        ``there`` is what they are for the changed copies. Unless the mixture of all is better by
+        ``sure`` times what may be chance, the best one of the first ``simple`` is taken: to the
+        difference of two risks the noise adds something of the standard deviation 2σ |x - y|/n.
         """
         core, n = self.core, int(self.core.sum())
         moves = np.stack([(x - self.mesh.vertices)[core].ravel() for x in here])
@@ -74,15 +79,22 @@ class _Trial:
         ]
         gram = moves @ moves.T / n
         divergence = np.mean(change, axis=0) / self.square / n
-        weights = best_mixture(gram, divergence, _CAUTION * sigma)
+        cautious = _CAUTION * sigma
+        weights = best_mixture(gram, divergence, cautious)
+        plain = np.zeros_like(weights)
+        plain[:simple] = best_mixture(gram[:simple, :simple], divergence[:simple], cautious)
+        costs = [mixture_risk(w, gram, divergence, cautious) for w in (weights, plain)]
+        apart = math.sqrt(max(float((weights - plain) @ gram @ (weights - plain)), 0.0))
+        if costs[1] - costs[0] < sure * 2 * sigma * apart / math.sqrt(n):
+            weights = plain
         risk = mixture_risk(weights, gram, divergence, sigma)
         # the noise that is left is at least what a filter of this divergence must leave
         return weights, max(risk, (sigma * float(weights @ divergence)) ** 2)
 
-    def level(self, here: list[Floats], there: list[list[Floats]], sigma: float) -> float:
+    def level(self, here: list[Floats], there: list[list[Floats]], sigma: float) -> float | None:
         """Return the level of what low passes remove, if it is the same for a range of cuts.
 
-        Else, or if it is far from σ, return σ.
+        The most even place of the longest such range counts; None, if there is none near σ.
 
         What a low pass H removes is (Id - H) of the noise, and of the shape: that the level of
         this noise does not change from cut to cut says that nothing is removed of the shape, and
@@ -96,13 +108,17 @@ class _Trial:
         ]
         shares = np.mean(of_probe, axis=0) / self.square
         if not min(removed) > 0 or not shares.min() > 0:
-            return sigma
+            return None
         levels = np.sqrt(np.array(removed) / shares)
         change = np.abs(np.diff(np.log(levels)))
         worst = np.maximum(change[1:], change[:-1])
         worst[np.abs(np.log(levels[1:-1] / sigma)) > _NEAR] = np.inf
-        best = int(worst.argmin())
-        return float(levels[best + 1]) if worst[best] < _SAME else sigma
+        alike = worst < _SAME * max(1.0, math.sqrt(_MANY / core.sum()))
+        ends = np.flatnonzero(np.diff(np.concatenate([[False], alike, [False]])))
+        if not len(ends):
+            return None
+        begin, end = max(ends.reshape(-1, 2).tolist(), key=lambda run: run[1] - run[0])
+        return float(levels[begin + 1 + worst[begin:end].argmin()])
 
 
 def choose(
@@ -126,15 +142,16 @@ def choose(
     here = filtered(mesh, bench, filters)
     there = [filtered(other, bench, filters) for other in others]
     trial = _Trial(mesh, sample.core, probes, (_PROBE * sigma) ** 2)
-    if not known:
-        k = sum(not one.by_length for one in LINEAR)
-        sigma = trial.level(here[1:k], [moved[1:k] for moved in there], sigma)
-    first, risk = trial.mixture(here, there, sigma)
+    k = sum(not one.by_length for one in LINEAR)
+    level = trial.level(here[1:k], [moved[1:k] for moved in there], sigma)
+    sure = _SURE if level is None else _SURE_ON_SMOOTH
+    sigma = sigma if known or level is None else level
+    first, risk = trial.mixture(here, there, sigma, len(LINEAR), sure)
     if plain:
         return Choice(sigma, filters, first, np.zeros(0), risk)
     here = _seconds(mesh, bench, _mixed(first, here))
     there = [_seconds(one, bench, _mixed(first, x)) for one, x in zip(others, there, strict=True)]
-    second, risk = trial.mixture(here, there, sigma)
+    second, risk = trial.mixture(here, there, sigma, 2, sure)
     return Choice(sigma, filters, first, second, risk)
 
 

@@ -180,6 +180,7 @@ def denoise(
     take some shape for noise costs little, but what is left of the noise spoils the normals; and
     the chosen mixture fits the noise it was chosen on. The ``predicted_error`` is for σ as it is,
     and at least σ times the divergence for each vertex, the least that a linear filter leaves.
+    Filters of normals, and the second mixture, are left out where what they gain may be chance.
 
     Components of at least 1000 vertices, the eight largest, have a noise level and mixtures of
     their own; the others are denoised as one. Borders are nothing special: displacements along the
