@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -16,6 +17,7 @@ from benchmarks.packages import package
 
 FOLDER_VARIABLE = "BELTRAMI_MESHES"
 QUICK_SIZE = 10_000
+IGEA = 134_345  # vertices
 
 Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
 
@@ -59,14 +61,21 @@ def cases(size: int, folder: Path, quick: bool = False) -> list[Case]:
     if size == 0:
         return [Case("no mesh", folder, no_mesh)]
     if quick:
-        return [Case(f"blob {QUICK_SIZE // 1000}k", folder, lambda: blob(QUICK_SIZE))]
+        return [small(folder)]
     found = [Case(f"blob {size // 1000}k", folder, lambda: blob(size))]
     meshes = os.environ.get(FOLDER_VARIABLE)
-    if meshes:
-        times = 0 if size < 500_000 else 1
+    if meshes and size < 100_000:
+        found.append(Case("bunny 35k", folder, lambda: bunny(Path(meshes) / "bun_zipper.ply")))
+    elif meshes:
         path = Path(meshes) / "igea.ply"
+        times = round(math.log(size / IGEA, 4))
         found.append(Case(f"igea {size // 1000}k", folder, lambda: igea(path, times)))
     return found
+
+
+def small(folder: Path) -> Case:
+    """Return the mesh to try and to warm up with."""
+    return Case(f"blob {QUICK_SIZE // 1000}k", folder, lambda: blob(QUICK_SIZE))
 
 
 def no_mesh() -> Arrays:
@@ -83,6 +92,12 @@ def igea(path: Path, times: int) -> Arrays:
     for _ in range(times):
         vertices, faces = subdivided(vertices, faces)
     return vertices, faces
+
+
+def bunny(path: Path) -> Arrays:
+    """Read the scan, less the vertices that no face uses."""
+    bt = package("beltrami")
+    return plain(bt.repair(bt.read_mesh(path), remove_unreferenced=True).mesh)
 
 
 def plain(mesh: Any) -> Arrays:

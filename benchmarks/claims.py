@@ -44,6 +44,8 @@ class Contender:
         peer's formula is another one: the difference is then shown and judged by the reader.
     times_itself
         ``run`` returns the seconds, because they are not those of the call.
+    residual
+        How far a canonical result is from solving its problem; None where that means nothing.
     """
 
     name: str
@@ -54,6 +56,7 @@ class Contender:
     counts: bool = True
     tolerance: float | None = 1e-9
     times_itself: bool = False
+    residual: Callable[[Any], float] | None = None
 
 
 @dataclass(frozen=True)
@@ -107,8 +110,9 @@ class Row:
         CPU seconds of this process, unless the work is done by others.
     memory
         Whether the peak memory of one run means something.
-    on_demand
-        Measured only when asked for by name: it takes many minutes.
+    large
+        Measured with ``--large``, for a report of its own: it takes many minutes. The warm-up is
+        on a small mesh, and the first timed run gives the result that is compared.
     """
 
     name: str
@@ -120,4 +124,4 @@ class Row:
     runs: int = 7
     clock: Callable[[], float] = time.process_time
     memory: bool = True
-    on_demand: bool = False
+    large: bool = False

@@ -9,13 +9,17 @@ from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from benchmarks.cases import cases
+from benchmarks.cases import Case, cases, small
+from benchmarks.claims import Row
 from benchmarks.harness import Measured, Table, attempt, measure
+from benchmarks.kept import keep, kept
 from benchmarks.memory import peak
 from benchmarks.report import goals, written
 from benchmarks.rows import ROWS
 
-REPORT = Path(__file__).parent.parent / "BENCHMARKS.md"
+ROOT = Path(__file__).parent.parent
+REPORT = ROOT / "BENCHMARKS.md"
+REPORT_LARGE = ROOT / "BENCHMARKS-LARGE.md"
 QUICK_RUNS = 3
 
 
@@ -36,22 +40,30 @@ def with_memory(table: Table, folder: Path, quick: bool) -> Table:
     return replace(table, measured=tuple(map(measured, table.measured)))
 
 
-def run(asked: argparse.Namespace, folder: Path) -> list[Table]:
-    """Measure the rows that were asked for."""
-    tables = []
+def measured_now(row: Row, case: Case, asked: argparse.Namespace, folder: Path) -> Table:
+    """Measure a row on a mesh."""
+    runs = asked.runs or (QUICK_RUNS if asked.quick else row.runs)
+    table = measure(row, case, runs, small(folder) if row.large else None)
+    return with_memory(table, folder, asked.quick) if row.memory and not asked.no_memory else table
+
+
+def run(asked: argparse.Namespace, folder: Path, target: Path | None) -> list[Table]:
+    """Measure the rows that were asked for; the report grows with each table."""
+    tables: list[Table] = []
     for row in ROWS:
-        if row.name not in asked.rows if asked.rows else row.on_demand:
+        if row.name not in asked.rows if asked.rows else row.large != asked.large:
             continue
         for case in cases(row.size, folder, asked.quick):
             tell(f"{row.name}, {case.name}")
-            table = measure(row, case, asked.runs or (QUICK_RUNS if asked.quick else row.runs))
-            if row.memory and not asked.no_memory:
-                table = with_memory(table, folder, asked.quick)
+            table = kept(folder, row, case) or measured_now(row, case, asked, folder)
             for one in table.measured:
                 tell(f"  {one.contender.name}: {one.problem or f'{one.median:.4f} s'}")
             if table.problem:
                 tell(f"  {table.problem}")
             tables.append(table)
+            keep(folder, tables)
+            if target is not None:
+                target.write_text(written(tables))
     return tables
 
 
@@ -61,10 +73,17 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     parser.add_argument("rows", nargs="*", metavar="row", help=f"all, or some of {names}")
     parser.add_argument("--quick", action="store_true", help="one small mesh, three runs")
+    parser.add_argument(
+        "--large", action="store_true", help="solver and spectra, to 2.1M vertices: over an hour"
+    )
     parser.add_argument("--runs", type=int, help="how often each contender runs")
     parser.add_argument("--no-memory", action="store_true", help="do not measure the memory")
     parser.add_argument("--output", type=Path, help=f"write the report there, not {REPORT.name}")
-    parser.add_argument("--folder", type=Path, help="keep the meshes and files there")
+    parser.add_argument(
+        "--folder",
+        type=Path,
+        help="keep the meshes and what was measured there, and go on from it",
+    )
     asked = parser.parse_args(arguments)
     for name in asked.rows:
         if name not in names:
@@ -77,20 +96,18 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure and report; the report is written where all rows were measured in full."""
     asked = parsed(arguments)
-    if asked.folder is not None:
-        asked.folder.mkdir(parents=True, exist_ok=True)
-        tables = run(asked, asked.folder)
-    else:
-        with TemporaryDirectory(prefix="beltrami_benchmarks_") as folder:
-            tables = run(asked, Path(folder))
-    text = written(tables)
     target = asked.output
     if target is None and not asked.rows and not asked.quick:
-        target = REPORT
+        target = REPORT_LARGE if asked.large else REPORT
+    if asked.folder is not None:
+        asked.folder.mkdir(parents=True, exist_ok=True)
+        tables = run(asked, asked.folder, target)
+    else:
+        with TemporaryDirectory(prefix="beltrami_benchmarks_") as folder:
+            tables = run(asked, Path(folder), target)
     if target is None:
-        print(text)
+        print(written(tables))
         return 0
-    target.write_text(text)
     print(goals(tables))
     tell(f"written: {target}")
     return 0

@@ -22,6 +22,7 @@ class Measured:
     contender: Contender
     seconds: tuple[float, ...] = ()
     difference: float | None = None
+    residual: float | None = None
     problem: str = ""
     memory: int | None = None
     memory_problem: str = ""
@@ -119,24 +120,59 @@ def timed(contender: Contender, clock: Callable[[], float]) -> tuple[float, Any]
     return (float(result) if contender.times_itself else seconds), result
 
 
-def warmed(row: Row, contender: Contender) -> Any:
-    """Run once, so that all is loaded and compiled; return what the row compares."""
-    result = contender.run(contender.prepare())
-    compared = row.difference is not None and not contender.times_itself
-    return contender.canonical(result) if compared else None
+def untimed(contender: Contender) -> Any:
+    """Run once, so that all is loaded and compiled; return the result."""
+    return contender.run(contender.prepare())
+
+
+class Comparison:
+    """Compares results with the first one that is given."""
+
+    def __init__(self, row: Row) -> None:
+        self.row = row
+        self.reference: Any = None
+
+    def __call__(self, one: Measured, result: Any) -> Measured:
+        """Return what was measured, with the difference and the residual of this result."""
+        contender = one.contender
+        if self.row.difference is None or contender.times_itself:
+            return one
+        canonical, problem = attempt(contender.canonical, result)
+        if problem:
+            return replace(one, problem=problem)
+        self.reference = canonical if self.reference is None else self.reference
+        difference, problem = attempt(self.row.difference, self.reference, canonical)
+        residual = None
+        if contender.residual is not None and not problem:
+            residual, problem = attempt(contender.residual, canonical)
+        return replace(one, difference=difference, residual=residual, problem=problem)
 
 
 def warm_up(row: Row, contenders: Sequence[Contender]) -> list[Measured]:
     """Run everybody once, untimed, and compare each result with the first one there is."""
-    reference = None
+    compare = Comparison(row)
     found = []
     for contender in contenders:
-        difference = None
-        result, problem = attempt(warmed, row, contender)
-        if row.difference is not None and result is not None:
-            reference = result if reference is None else reference
-            difference, problem = attempt(row.difference, reference, result)
-        found.append(Measured(contender, difference=difference, problem=problem))
+        result, problem = attempt(untimed, contender)
+        one = Measured(contender, problem=problem)
+        found.append(one if problem else compare(one, result))
+    return found
+
+
+def once(row: Row, case: Case, small: Case) -> list[Measured]:
+    """Warm up on the small mesh; time each one once, and compare these results."""
+    compare = Comparison(row)
+    warm = {one.name: attempt(untimed, one)[1] for one in row.contenders(small)}
+    found = []
+    for contender in row.contenders(case):
+        outcome, problem = None, warm.get(contender.name, "")
+        if not problem:
+            outcome, problem = attempt(timed, contender, row.clock)
+        if problem:
+            found.append(Measured(contender, problem=problem))
+            continue
+        found.append(compare(Measured(contender, (outcome[0],)), outcome[1]))
+        del outcome
     return found
 
 
@@ -159,13 +195,19 @@ def in_turn(row: Row, measured: list[Measured], runs: int) -> list[Measured]:
     return measured
 
 
-def measure(row: Row, case: Case, runs: int) -> Table:
-    """Warm up, compare and time the contenders of a row on one mesh."""
+def measure(row: Row, case: Case, runs: int, small: Case | None = None) -> Table:
+    """Warm up, compare and time the contenders of a row on one mesh.
+
+    With a ``small`` mesh to warm up on, the first timed run is the one that is compared.
+    """
     _, problem = attempt(lambda: case.faces)
     if problem:
         return Table(row, case.name, problem=problem)
     contenders, problem = attempt(row.contenders, case)
     if problem:
         return Table(row, case.name, problem=problem)
-    measured = in_turn(row, warm_up(row, contenders), runs)
+    if small is None:
+        measured = in_turn(row, warm_up(row, contenders), runs)
+    else:
+        measured = in_turn(row, once(row, case, small), runs - 1)
     return Table(row, case.name, len(case.vertices), len(case.faces), tuple(measured))

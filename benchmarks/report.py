@@ -70,12 +70,13 @@ def goals(tables: Sequence[Table]) -> str:
     return grid(("work", "mesh", "ours", "against", "value", "goal", ""), lines)
 
 
-def raw_line(one: Measured) -> list[str]:
+def raw_line(one: Measured, with_residual: bool) -> list[str]:
     """Return what was measured of one contender."""
     name = one.contender.name
     if one.problem:
-        return [name, NONE, NONE, NONE, NONE, f"FAILED: {one.problem}"]
+        return [name, *[NONE] * (4 + with_residual), f"FAILED: {one.problem}"]
     difference = NONE if one.difference is None else f"{one.difference:.1e}"
+    residual = NONE if one.residual is None else f"{one.residual:.0e}"
     judged = "" if one.agrees else "OTHER RESULT, not counted"
     if one.contender.tolerance is None:
         judged = "another formula"
@@ -87,6 +88,7 @@ def raw_line(one: Measured) -> list[str]:
         f"{min(one.seconds):.4f} to {max(one.seconds):.4f}",
         one.memory_text,
         difference,
+        *([residual] if with_residual else []),
         judged,
     ]
 
@@ -98,9 +100,11 @@ def raw(table: Table) -> str:
         return f"{title}NOT MEASURED: {table.problem}"
     runs = max((len(one.seconds) for one in table.measured), default=0)
     mesh = f", {table.n_vertices:,} vertices, {table.n_faces:,} faces" if table.n_faces else ""
-    heads = ("", "median s", "range", "peak MB", "difference", "")
+    with_residual = any(one.residual is not None for one in table.measured)
+    told = ("residual",) if with_residual else ()
+    heads = ("", "median s", "range", "peak MB", "difference", *told, "")
     text = f"{table.row.work}{mesh}; {runs} runs.\n\n"
-    return title + text + grid(heads, map(raw_line, table.measured))
+    return title + text + grid(heads, [raw_line(one, with_residual) for one in table.measured])
 
 
 def written(tables: Sequence[Table]) -> str:
@@ -113,7 +117,9 @@ def written(tables: Sequence[Table]) -> str:
             "\n## What was measured\n",
             "Peak MB is what one run needs above what it is given, in a process of its own.",
             "The difference is that to the first contender that runs, relative to the largest",
-            "value (edges: how many differ).\n",
+            "value (edges: how many differ; eigenvalues: the largest relative one). The residual",
+            "is that of the contender's own problem: Ax - b beside |A||x| + |b| of a solve, the",
+            "largest norm of Lx - λBx beside λBx of eigenpairs, in double precision.\n",
             "\n\n".join(map(raw, tables)),
             "\n## Where and when\n",
             grid(("", ""), [*facts(), ("threads", thread_settings())]),

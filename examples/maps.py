@@ -1,6 +1,10 @@
 """Figures 3.10 and 3.11: maps to the plane, by boundaries and weights; flattenings that fail.
 
 python examples/maps.py FOLDER
+
+Above, the images in the plane, with the distortion in colour: the logarithm of the symmetric
+Dirichlet energy, 0 where lengths are kept. Below, what a checkerboard in the plane is on the
+surface.
 """
 
 import sys
@@ -12,8 +16,10 @@ import beltrami as bt
 
 MAPS = {
     "circle, combinatorial": {"method": "tutte", "weights": "combinatorial"},
+    "circle, distance": {"method": "tutte", "weights": "distance"},
     "circle, mean value": {"method": "tutte", "weights": "mean_value"},
     "square, cotangent": {"method": "tutte", "weights": "cotangent", "boundary": "square"},
+    "triangle, mean value": {"method": "tutte", "weights": "mean_value", "boundary": 3},
     "circle, reweighted": {},
     "free boundary": {"method": "free"},
 }
@@ -26,11 +32,23 @@ def sheet(height, center=(0.0, 0.0), rings=14):
     return bt.Mesh(np.column_stack([flat.vertices, z]), flat.faces)
 
 
+def stretch(psi):
+    """Return the logarithm of the energy, in the mean over the faces around each vertex."""
+    values = np.log10(psi.distortion.energy.clip(1, 1e9))
+    around = psi.mesh.topology.vertex_faces
+    return (around @ (psi.distortion.areas * values)) / (around @ psi.distortion.areas)
+
+
 def draw(maps, names, path):
-    """Draw the images of the surface, wires and all."""
+    """Draw the images of the surface, wires and all, and the surface with a checkerboard."""
+    count = len(maps)
     return bt.render(
-        [psi.flat for psi in maps], None, path,
-        wireframe=True, caption=names, size=(300, 320), columns=len(maps),
+        [psi.flat for psi in maps] + [psi.textured for psi in maps],
+        [stretch(psi) for psi in maps] + [None] * count,
+        path,
+        texture=[None] * count + ["checkerboard"] * count,
+        limits=(0, 2), colorbar=False, level_set=None, wireframe=True, line_width=1.0,
+        caption=[*names, *[""] * count], size=(250, 250), columns=count,
     )  # fmt: skip
 
 
@@ -39,7 +57,12 @@ def parameterizations(mesh):
 
     Chapter items: F3.10.
     """
-    return [bt.parameterize(mesh, bulge=0.02, strict=False, **options) for options in MAPS.values()]
+    return [bt.parameterize(mesh, bulge=bulge_of(options), **options) for options in MAPS.values()]
+
+
+def bulge_of(options):
+    """Bend straight sides a little, so that no edge of the mesh divides one."""
+    return 0.02 if "boundary" in options else 0.0
 
 
 def flattenings():

@@ -6,8 +6,8 @@ from benchmarks.claims import Row
 from benchmarks.rows.adjacency import ADJACENCY
 from benchmarks.rows.assembly import ASSEMBLY
 from benchmarks.rows.convolving import CONVOLUTIONS
-from benchmarks.rows.eigenpairs import EIGEN_50, EIGEN_200, EIGEN_500, EIGEN_LARGE
-from benchmarks.rows.factorizing import FACTORIZE, FACTORIZE_LARGE, SOLVE_3, SOLVE_64
+from benchmarks.rows.eigenpairs import EIGENPAIRS
+from benchmarks.rows.factorizing import FACTORIZATIONS, SOLVES
 from benchmarks.rows.filtering import FILTERING
 from benchmarks.rows.geodesics import GEODESICS, GEODESICS_PREPARED
 from benchmarks.rows.intrinsic import INTRINSIC
@@ -25,14 +25,9 @@ ROWS: tuple[Row, ...] = (
     SMOOTHING,
     FILTERING,
     ADJACENCY,
-    FACTORIZE,
-    FACTORIZE_LARGE,
-    SOLVE_3,
-    SOLVE_64,
-    EIGEN_50,
-    EIGEN_200,
-    EIGEN_500,
-    EIGEN_LARGE,
+    *FACTORIZATIONS,
+    *SOLVES,
+    *EIGENPAIRS,
     CONJUGATE_GRADIENTS,
     HARMONIC,
     READ_OBJ,

@@ -18,6 +18,8 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from beltrami._carded import register_drawer
+
 if TYPE_CHECKING:
     from beltrami import errors as errors
     from beltrami.compression.compress import compress as compress
@@ -35,8 +37,12 @@ if TYPE_CHECKING:
     from beltrami.diffusion.smooth_mesh import smooth_mesh as smooth_mesh
     from beltrami.diffusion.smoothing import smooth as smooth
     from beltrami.diffusion.wave import wave as wave
+    from beltrami.display.bake import bake as bake
+    from beltrami.display.bake import colorize as colorize
     from beltrami.display.light import DirectionalLight as DirectionalLight
     from beltrami.display.light import SpotLight as SpotLight
+    from beltrami.display.page import Page as Page
+    from beltrami.display.page import page as page
     from beltrami.display.render import render as render
     from beltrami.display.spectrum_plot import plot_spectrum as plot_spectrum
     from beltrami.geodesics.distance import geodesic_distance as geodesic_distance
@@ -77,14 +83,18 @@ if TYPE_CHECKING:
     from beltrami.operators.point_cloud import PointCloud as PointCloud
     from beltrami.operators.projection import project as project
     from beltrami.operators.weights import edge_weights as edge_weights
+    from beltrami.parameterization.atlas import atlas as atlas
     from beltrami.parameterization.certificate import Certificate as Certificate
     from beltrami.parameterization.certificate import certify as certify
+    from beltrami.parameterization.disk_cells import DiskCells as DiskCells
+    from beltrami.parameterization.disk_cells import segment_into_disks as segment_into_disks
     from beltrami.parameterization.distortion import Distortion as Distortion
     from beltrami.parameterization.distortion import distortion as distortion
     from beltrami.parameterization.flatten import flatten as flatten
     from beltrami.parameterization.harmonic import harmonic as harmonic
     from beltrami.parameterization.parameterization import Parameterization as Parameterization
     from beltrami.parameterization.parameterize import parameterize as parameterize
+    from beltrami.parameterization.texture_atlas import TextureAtlas as TextureAtlas
     from beltrami.solvers.conjugate_gradients import conjugate_gradients as conjugate_gradients
     from beltrami.solvers.factor import Factor as Factor
     from beltrami.solvers.factorize import factorize as factorize
@@ -125,6 +135,8 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"
 
+register_drawer("beltrami.display.cards")  # no room on the way there may import it
+
 _HOME = {
     "Atlas": "surfaces.atlas",
     "Certificate": "parameterization.certificate",
@@ -135,6 +147,7 @@ _HOME = {
     "Diagnosis": "mesh.diagnose",
     "DirectionalLight": "display.light",
     "Disk": "surfaces.domain",
+    "DiskCells": "parameterization.disk_cells",
     "Distortion": "parameterization.distortion",
     "Factor": "solvers.factor",
     "FourierBasis": "spectrum.basis",
@@ -148,6 +161,7 @@ _HOME = {
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
     "NodalDomains": "spectrum.nodal_domains",
+    "Page": "display.page",
     "Parameterization": "parameterization.parameterization",
     "ParametricSurface": "surfaces.surface",
     "PointCloud": "operators.point_cloud",
@@ -156,10 +170,14 @@ _HOME = {
     "Segmentation": "spectrum.segment",
     "Signature": "spectrum.signature",
     "SpotLight": "display.light",
+    "TextureAtlas": "parameterization.texture_atlas",
     "Topology": "mesh.topology",
     "as_mesh": "mesh.convert",
+    "atlas": "parameterization.atlas",
+    "bake": "display.bake",
     "ball_average_laplacian": "surfaces.ball_average",
     "certify": "parameterization.certificate",
+    "colorize": "display.bake",
     "colouring": "operators.colouring",
     "compress": "compression.compress",
     "conjugate_gradients": "solvers.conjugate_gradients",
@@ -203,6 +221,7 @@ _HOME = {
     "meyer_frame": "spectrum.wavelets",
     "minres": "solvers.minres",
     "nodal_domains": "spectrum.nodal_domains",
+    "page": "display.page",
     "parameterize": "parameterization.parameterize",
     "plot_spectrum": "display.spectrum_plot",
     "poisson": "diffusion.poisson",
@@ -213,6 +232,7 @@ _HOME = {
     "render": "display.render",
     "repair": "mesh.repair",
     "segment": "spectrum.segment",
+    "segment_into_disks": "parameterization.disk_cells",
     "shape_dna": "spectrum.shape_dna",
     "smooth": "diffusion.smoothing",
     "smooth_mesh": "diffusion.smooth_mesh",

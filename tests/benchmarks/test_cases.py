@@ -59,5 +59,6 @@ def test_igea_is_there_where_the_folder_is_named(
     assert [case.name for case in cases(134_000, tmp_path)] == ["blob 134k"]
     monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path))
     assert [case.name for case in cases(537_000, tmp_path)] == ["blob 537k", "igea 537k"]
+    assert [case.name for case in cases(35_000, tmp_path)] == ["blob 35k", "bunny 35k"]
     assert [case.name for case in cases(537_000, tmp_path, quick=True)] == ["blob 10k"]
     assert [case.name for case in cases(0, tmp_path)] == ["no mesh"]

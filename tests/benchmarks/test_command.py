@@ -13,20 +13,22 @@ from benchmarks.threads import VARIABLES, one_thread
 from benchmarks import command
 
 
-def row(name: str) -> Row:
+def row(name: str, large: bool = False) -> Row:
     def contenders(_: object) -> list[Contender]:
         return [
             Contender("beltrami", lambda _: 1.0, ours=True, times_itself=True),
             Contender("peer", lambda _: 4.0, times_itself=True),
         ]
 
-    return Row(name, f"the work of {name}", contenders, (Goal(0.5),), size=0)
+    return Row(name, f"the work of {name}", contenders, (Goal(0.5),), size=0, large=large)
 
 
 @pytest.fixture(autouse=True)
 def report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setattr(command, "ROWS", (row("first"), row("second")))
+    monkeypatch.setattr(command, "ROWS", (row("first"), row("second"), row("long", large=True)))
     monkeypatch.setattr(command, "REPORT", tmp_path / "BENCHMARKS.md")
+    monkeypatch.setattr(command, "REPORT_LARGE", tmp_path / "BENCHMARKS-LARGE.md")
+    monkeypatch.setattr(command, "small", lambda folder: command.cases(0, folder)[0])
     return tmp_path / "BENCHMARKS.md"
 
 
@@ -35,7 +37,16 @@ def test_full_run_writes_the_report(report: Path, capsys: pytest.CaptureFixture[
     text = report.read_text()
     assert "the work of first | no mesh | beltrami 1.0000 s | peer 4.0000 s | 0.250 x" in text
     assert "the work of second" in text
+    assert "the work of long" not in text
     assert "0.250 x" in capsys.readouterr().out
+
+
+def test_large_rows_have_a_report_of_their_own(report: Path) -> None:
+    assert command.main(["--large"]) == 0
+    assert not report.exists()
+    text = report.with_name("BENCHMARKS-LARGE.md").read_text()
+    assert "### long: no mesh" in text
+    assert "### first" not in text
 
 
 @pytest.mark.parametrize("arguments", [["second"], ["--quick"]])
@@ -73,3 +84,18 @@ def test_threads_are_limited_before_numpy_only(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.delitem(sys.modules, "numpy")
     one_thread()
     assert all(os.environ[name] == "1" for name in VARIABLES)
+
+
+def test_stopped_run_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = ["--folder", str(tmp_path / "kept")]
+    command.main(["first", *folder])
+    measured: list[str] = []
+    real = command.measured_now
+
+    def now(row: Row, *rest: object) -> object:
+        measured.append(row.name)
+        return real(row, *rest)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(command, "measured_now", now)
+    command.main(folder)
+    assert measured == ["second"]

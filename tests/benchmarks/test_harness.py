@@ -195,3 +195,42 @@ def test_table_tells_the_size_of_the_mesh(tmp_path: Path) -> None:
     case = Case("small", tmp_path, lambda: (np.zeros((5, 3)), np.zeros((2, 3), np.int64)))
     table = measure(row, case, 1)
     assert (table.n_vertices, table.n_faces) == (5, 2)
+
+
+def test_large_row_warms_up_on_the_small_mesh_and_compares_what_it_times(tmp_path: Path) -> None:
+    ran: list[tuple[str, str]] = []
+
+    def contenders(case: Case) -> list[Contender]:
+        def named(name: str, result: float) -> Contender:
+            def run(_: None) -> float:
+                ran.append((case.name, name))
+                return result
+
+            return Contender(name, run, residual=lambda x: x / 8)
+
+        found = [named("beltrami", 2.0), named("peer", 2.5)]
+        return [*found, named("small only", 0.0)] if case.name == "small" else found
+
+    row = Row("row", "work", contenders, (), difference=apart)
+    table = measure(row, Case("large", tmp_path, no_mesh), 2, Case("small", tmp_path, no_mesh))
+    assert [name for case, name in ran if case == "small"] == ["beltrami", "peer", "small only"]
+    assert len([name for case, name in ran if case == "large"]) == 4  # no warm-up there
+    assert [one.difference for one in table.measured] == [0, 0.5]
+    assert [one.residual for one in table.measured] == [0.25, 0.3125]
+    assert [len(one.seconds) for one in table.measured] == [2, 2]
+
+
+def test_contender_that_fails_on_the_small_mesh_is_not_timed_on_the_large(tmp_path: Path) -> None:
+    def contenders(case: Case) -> list[Contender]:
+        def run(_: None) -> float:
+            if case.name == "small":
+                raise OSError("no licence")
+            return 1.0
+
+        return [Contender("peer", run)]
+
+    row = Row("row", "work", contenders, (), difference=apart)
+    both = Case("large", tmp_path, no_mesh), 1, Case("small", tmp_path, no_mesh)
+    (one,) = measure(row, *both).measured
+    assert one.problem == "OSError: no licence"
+    assert not one.seconds

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from benchmarks.cases import Case
 from benchmarks.claims import BEST_PEER, Row
-from benchmarks.rows import ROWS, adjacency, assembly, factorizing, reading, smoothing
+from benchmarks.rows import ROWS, adjacency, assembly, eigenpairs, factorizing, reading, smoothing
 from scipy.sparse import csc_array, csr_array, diags_array
 
 import beltrami as bt
@@ -141,3 +141,20 @@ def test_superlu_is_not_asked_to_factorise_a_large_mesh(
     monkeypatch.setattr(factorizing, "LARGE", 4)
     left = [one.name for one in factorizing.factorizing(tetrahedron(tmp_path))]
     assert [name for name in names if name not in left] == ["SuperLU, as we call it"]
+
+
+def test_factorizing_sees_a_wrong_solution(tmp_path: Path) -> None:
+    A = factorizing.step_of_heat(V, F)
+    b = factorizing.right_hand_sides(4, 3)
+    x = np.linalg.solve(A.toarray(), b)
+    assert factorizing.backward_error(tetrahedron(tmp_path), x, b) < 1e-14
+    assert factorizing.backward_error(tetrahedron(tmp_path), 1.5 * x, b) > 0.01
+
+
+def test_eigenpairs_are_judged_by_their_own_residuals() -> None:
+    L, B = np.diag([0.0, 2.0, 6.0]), np.diag([1.0, 2.0, 3.0])
+    found = np.array([0.0, 1.0, 2.0]), np.eye(3)
+    assert eigenpairs.residual(L, B, found) == 0
+    wrong = np.array([0.0, 1.0, 2.5]), np.eye(3)
+    assert eigenpairs.residual(L, B, wrong) == pytest.approx(0.2)
+    assert eigenpairs.difference(found, wrong) == pytest.approx(0.25)

@@ -37,6 +37,8 @@ def test_everything_is_escaped():
         (Figure(EVIL, EVIL),),
         ((EVIL, EVIL),),
         (EVIL,),
+        1.25,
+        (EVIL,),
     )
     page = seen(EVIL, [EVIL], [chapter])
     assert "script" not in page.tags
@@ -45,7 +47,8 @@ def test_everything_is_escaped():
     assert EVIL in page.attributes["a", "href"]
     # title, h1, note, nav, h2, paragraph, two cells, caption, link, commands
     assert page.text.count(EVIL) == 11
-    assert f"Section {EVIL}" in page.text
+    assert f"Section {EVIL} · 1.2 s" in page.text
+    assert f"Warning: {EVIL}" in page.text
 
 
 def test_the_contents_lead_to_the_chapters():
@@ -54,3 +57,11 @@ def test_the_contents_lead_to_the_chapters():
     assert page.attributes["h2", "id"] == ["the-first", "second"]
     assert "".join(page.text).count("Section") == 1
     assert not {"img", "table", "pre", "ul"} & set(page.tags)
+
+
+def test_the_time_and_the_warnings_of_a_chapter_are_told():
+    chapter = Chapter("One", "3.1", ("text",), seconds=1.25, warnings=("the noise is strong",))
+    page = index_page("title", [], [chapter, Chapter("Two", "", ("text",))])
+    assert '<p class="section">Section 3.1 · 1.2 s</p>' in page
+    assert '<p class="warning">Warning: the noise is strong</p>' in page
+    assert page.count('class="section"') == page.count('class="warning"') == 1

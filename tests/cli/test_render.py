@@ -43,3 +43,25 @@ def test_options_that_do_not_fit(beltrami, sphere, tmp_path, arguments, code, te
     assert done.exit_code == code
     assert text in done.stderr
     assert not (tmp_path / "p.png").exists()
+
+
+def test_a_texture(beltrami, tmp_path):
+    from beltrami.io.registry import write_mesh
+    from beltrami.mesh.mesh import Mesh
+
+    corners = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    faces = np.array([[0, 1, 2], [0, 2, 3]])
+    placed = Mesh(corners, faces, corner_uv=corners[faces][..., :2])
+    write_mesh(tmp_path / "a.obj", placed, texture=np.broadcast_to([1.0, 0, 0], (2, 2, 3)))
+    output = tmp_path / "p.png"
+    for texture, colours in ((tmp_path / "a.png", 1), ("checkerboard", 2)):
+        words = ("-o", output, "--size", 60, 60, "--view", 0, 0, "--texture", texture)
+        done = beltrami("render", tmp_path / "a.obj", *words)
+        assert done.exit_code == 0, done.stderr
+        with Image.open(output) as picture:
+            middle = np.asarray(picture.convert("RGB"), dtype=int)[20:40, 20:40].reshape(-1, 3)
+        reds = np.unique(middle[:, 1] < 40)
+        assert len(reds) == 1
+        assert reds[0] == (colours == 1)
+    done = beltrami("render", tmp_path / "a.obj", "-o", output, "--texture", tmp_path / "no.png")
+    assert done.exit_code == 1

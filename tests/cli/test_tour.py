@@ -55,3 +55,24 @@ def test_a_wrong_axis_is_told_before_the_work(beltrami, sphere, tmp_path):
     done = beltrami("tour", sphere, "-o", tmp_path / "tour", "--up", "q")
     assert done.exit_code == 1
     assert not (tmp_path / "tour").exists()
+
+
+def test_what_a_chapter_warns_of_is_on_the_page(beltrami, sphere, tmp_path, monkeypatch):
+    import warnings
+
+    import beltrami.cli.chapters.files as module
+
+    real = module.files
+
+    def warning(stage):
+        for _ in range(2):
+            warnings.warn("the disk is <slow>", stacklevel=1)
+        return real(stage)
+
+    monkeypatch.setattr(module, "files", warning)
+    done = beltrami("tour", sphere, "-o", tmp_path / "tour")
+    assert done.exit_code == 0, done.stderr
+    page = (tmp_path / "tour" / "index.html").read_text("utf-8")
+    assert page.count("Warning: the disk is &lt;slow&gt;") == 1
+    assert re.search(r"\d+ chapters in \d+ seconds", page)
+    assert len(re.findall(r"· \d+\.\d s</p>", page)) >= 8

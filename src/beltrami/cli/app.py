@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from beltrami.cli.atlas import atlas
 from beltrami.cli.compress import compress
 from beltrami.cli.curvature import curvature
 from beltrami.cli.cut import cut
@@ -19,6 +20,7 @@ from beltrami.cli.geodesics import geodesics
 from beltrami.cli.heat import heat
 from beltrami.cli.info import info
 from beltrami.cli.integrate import integrate
+from beltrami.cli.page import page
 from beltrami.cli.parameterize import parameterize
 from beltrami.cli.regularize import regularize
 from beltrami.cli.render import render
@@ -54,8 +56,10 @@ for verb in (
     decompress,
     cut,
     parameterize,
+    atlas,
     flatten,
     render,
+    page,
     tour,
 ):
     app.command()(ending_well(verb))

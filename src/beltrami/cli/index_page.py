@@ -15,6 +15,7 @@ body { font: 16px/1.55 system-ui, sans-serif; color: var(--ink); background: var
 h1 { font-size: 1.9rem; margin: 0; } h2 { margin: 3rem 0 .3rem; }
 nav { display: flex; flex-wrap: wrap; gap: .2rem 1rem; }
 p { max-width: 46rem; } .section { color: var(--quiet); }
+.warning { border-left: 4px solid #c80; padding-left: .8rem; }
 figure { margin: 1.2rem 0; }
 img { max-width: 100%; height: auto; border-radius: 8px; background: #fff; }
 figcaption { color: var(--quiet); font-size: .92rem; max-width: 46rem; }
@@ -55,11 +56,15 @@ def _anchor(chapter: Chapter) -> str:
 
 def _section(chapter: Chapter) -> str:
     """Write one chapter."""
-    section = f'<p class="section">Section {escape(chapter.section)}</p>' if chapter.section else ""
+    told = [f"Section {escape(chapter.section)}"] if chapter.section else []
+    if chapter.seconds is not None:
+        told.append(f"{chapter.seconds:.1f} s")
+    section = f'<p class="section">{" · ".join(told)}</p>' if told else ""
     return "\n".join(
         [
             f'<section><h2 id="{_anchor(chapter)}">{escape(chapter.title)}</h2>{section}',
             *(f"<p>{escape(paragraph)}</p>" for paragraph in chapter.text),
+            *(f'<p class="warning">Warning: {escape(line)}</p>' for line in chapter.warnings),
             _table(chapter.rows),
             *(
                 f'<figure><img src="{escape(figure.name)}" alt="{escape(figure.caption)}">'

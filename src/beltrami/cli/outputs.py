@@ -18,14 +18,14 @@ def check_mesh_output(path: Path) -> None:
     suffix_of(path, None, (*WRITERS, *extras.WRITERS))
 
 
-def check_texture_output(path: Path) -> None:
+def check_texture_output(path: Path, formats: tuple[str, ...] = (".obj",)) -> None:
     """Raise now what writing a mesh with texture coordinates would raise after the work."""
     from beltrami.errors import check_name
     from beltrami.io.registry import WRITERS, suffix_of
 
     _check_place(path)
-    suffix = suffix_of(path, None, tuple(WRITERS))
-    check_name("format for texture coordinates", suffix, (".obj",))
+    suffix = suffix_of(path, None, (*WRITERS, *formats))
+    check_name("format for texture coordinates", suffix, formats)
 
 
 def check_values_output(path: Path) -> None:
@@ -78,6 +78,15 @@ def check_basis_output(path: Path) -> None:
 
     _check_place(path)
     check_name("format for a basis", path.suffix.lower(), (".npz",))
+
+
+def check_page_output(path: Path) -> None:
+    """Raise now what writing a page to ``path`` would raise after the work."""
+    from beltrami.display.page import SUFFIXES
+    from beltrami.errors import check_name
+
+    _check_place(path)
+    check_name("suffix of a page", path.suffix.lower(), SUFFIXES)
 
 
 def _check_place(path: Path) -> None:

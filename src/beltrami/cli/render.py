@@ -37,6 +37,14 @@ def render(
     limits: Annotated[
         tuple[float, float] | None, Option(help="Range of the colours.", show_default=False)
     ] = None,
+    texture: Annotated[
+        str | None,
+        Option(
+            metavar="FILE",
+            help="Picture for meshes with texture coordinates, or checkerboard.",
+            show_default=False,
+        ),
+    ] = None,
     captions: Annotated[bool, Option(help="Write the names of the files.")] = True,
 ) -> None:
     """Draw meshes, side by side, with a function on the first if --data is given."""
@@ -63,6 +71,7 @@ def render(
             wireframe=wireframe,
             colormap=colormap,
             limits=limits,
+            texture=texture if texture in (None, "checkerboard") else Path(texture),
             caption=[path.name for path in meshes] if several and captions else None,
         )
     typer.echo(f"wrote {output}: {picture.shape[1]} x {picture.shape[0]} pixels")

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import time
+import warnings
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -46,6 +49,8 @@ def tour(
         shape, notes = _prepared(mesh)
     output.mkdir(parents=True, exist_ok=True)
     chapters = _play(Stage(MESH, shape, output, axis, view))
+    total = sum(chapter.seconds or 0 for chapter in chapters)
+    notes.append(f"{len(chapters)} chapters in {total:.0f} seconds.")
     notes.append(f"The commands on this page run in its folder, on its {MESH}.")
     title = f"A tour of {'the blob' if mesh is None else mesh.name}"
     with replacing(output / "index.html") as file:
@@ -80,24 +85,31 @@ def _play(stage: Stage) -> list[Chapter]:
     from beltrami.cli.chapters.geodesics import geodesics
     from beltrami.cli.chapters.grid import grid
     from beltrami.cli.chapters.heat import heat
+    from beltrami.cli.chapters.maps import maps
     from beltrami.cli.chapters.operators import operators
     from beltrami.cli.chapters.spectrum import spectrum
     from beltrami.cli.chapters.surface import surface
     from beltrami.cli.chapters.waves import waves
 
     acts: tuple[Callable[[Stage], Chapter], ...] = (
-        surface, operators, averaging, grid, heat, denoising, waves, spectrum, compression,
+        surface, operators, averaging, grid, heat, denoising, waves, spectrum, compression, maps,
         geodesics, files,
     )  # fmt: skip
     played = []
     with waiting("touring") as progress:
         for done, act in enumerate(acts):
             progress(done, len(acts))
-            try:
-                played.append(act(stage))
-            except BeltramiError as error:
-                title = act.__name__.capitalize()
-                why = f"Not on this mesh: {as_commands(str(error))}"
-                played.append(Chapter(title, "", (why,)))
-                typer.echo(f"{title}: {why}", err=True)
+            start = time.perf_counter()
+            with warnings.catch_warnings(record=True) as warned:
+                warnings.simplefilter("always")
+                try:
+                    chapter = act(stage)
+                except BeltramiError as error:
+                    title = act.__name__.capitalize()
+                    why = f"Not on this mesh: {as_commands(str(error))}"
+                    chapter = Chapter(title, "", (why,))
+                    typer.echo(f"{title}: {why}", err=True)
+            told = tuple(dict.fromkeys(str(one.message) for one in warned))
+            seconds = time.perf_counter() - start
+            played.append(replace(chapter, seconds=seconds, warnings=told))
     return played

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from beltrami._arrays import Integers
+from beltrami._carded import Carded
 from beltrami._progress import Progress
 from beltrami.diffusion.candidates import SECOND, Bench
 from beltrami.diffusion.choice import (
@@ -61,7 +62,7 @@ class DenoisedPart:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Denoised:
+class Denoised(Carded):
     """A denoised mesh, and what was found and done.
 
     Attributes

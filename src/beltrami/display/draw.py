@@ -36,20 +36,25 @@ def draw_panel(panel: Panel, style: Style) -> Image:
         f = triangles.carry(panel.values[faces])[..., 0]
         lines = (level_lines(triangles, f, level) for level in panel.levels)
         strokes = stroke(visible, lines, width, panel.camera.focal_length(size))
-    front, back = corner_light(panel.mesh, panel.camera, style, panel.values is not None)
+    plain = panel.values is None and panel.texture is None
+    front, back = corner_light(panel.mesh, panel.camera, style, not plain)
     values, table = _colors(panel, style)
     color = as_color(style.color)
+    texture = {} if panel.texture is None else panel.texture._asdict()
+    if panel.texture is not None:
+        texture["uv"] = triangles.carry(panel.texture.uv)
     paint = Paint(
         values=triangles.carry(values[faces]),
         table=table,
         front=triangles.carry(front),
         back=triangles.carry(back),
-        inside=np.array(SLATE) * (color.max() / max(CLAY) if panel.values is None else 1.0),
-        tint=0.0 if style.back != "tint" else (1.0 if panel.values is None else 0.55),
+        inside=np.array(SLATE) * (color.max() / max(CLAY) if plain else 1.0),
+        tint=0.0 if style.back != "tint" else (1.0 if plain else 0.55),
         background=as_color(style.background),
         line=np.array(INK),
         wire=np.array(INK),
         wire_width=0.6 * width if style.wireframe else 0.0,
+        **texture,
     )
     return shade(triangles, visible, strokes, paint, samples)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from os import PathLike
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -12,6 +13,7 @@ from beltrami.display.camera import Camera
 from beltrami.display.colormaps import is_signed
 from beltrami.display.framing import fit_camera
 from beltrami.display.scene import Panel, check_mesh
+from beltrami.display.texture import Texture, make_texture
 from beltrami.display.values import as_values, choose_limits, seen_values
 from beltrami.errors import DimensionError, EmptyMeshError, MeshError, check_name, shown
 from beltrami.mesh.door import require_mesh
@@ -95,8 +97,9 @@ def make_panels(
     colormap: Any,
     limits: Any,
     level_set: Levels,
+    texture: Any = None,
 ) -> list[Panel]:
-    """Check the functions, and choose colours, limits and level sets."""
+    """Check the functions and textures, and choose colours, limits and level sets."""
     values = [
         None if f is None else as_values(mesh, f) for mesh, f in zip(meshes, functions, strict=True)
     ]
@@ -108,14 +111,46 @@ def make_panels(
         check_name("limits", limits, ("common",))
         every = [s for s in seen if s is not None] or [np.zeros(1)]
         limits, colormap = choose_limits(np.concatenate(every), None, colormap)
+    textures = textured(meshes, functions, texture)
     panels = []
-    for mesh, v, s, text, camera in zip(meshes, values, seen, captions, cameras, strict=True):
+    for mesh, v, s, text, camera, picture in zip(
+        meshes, values, seen, captions, cameras, textures, strict=True
+    ):
         if s is None:
-            panels.append(Panel(mesh, camera, v, caption=text))
+            panels.append(Panel(mesh, camera, v, caption=text, texture=picture))
             continue
         ends, table = choose_limits(s, limits, colormap)
         panels.append(Panel(mesh, camera, v, ends, table, _levels(level_set, s), text))
     return panels
+
+
+def textured(meshes: list[Mesh], functions: list[Any], texture: Any) -> list[Texture | None]:
+    """Prepare the texture of each panel: a list has one for each, anything else is for all.
+
+    Raises
+    ------
+    DimensionError
+        If there is not one texture for each panel.
+    MeshError
+        If there is a function and a texture on the same mesh.
+    """
+    several = isinstance(texture, list | tuple)
+    several = several and all(isinstance(x, str | PathLike | np.ndarray | None) for x in texture)
+    pictures = list(texture) if several else [texture] * len(meshes)
+    if len(pictures) != len(meshes):
+        raise DimensionError(
+            f"{len(pictures)} textures for {len(meshes)} panels",
+            remedy="Give one for each panel, with None where there is none.",
+        )
+    made: list[Texture | None] = []
+    for mesh, f, picture in zip(meshes, functions, pictures, strict=True):
+        if picture is not None and f is not None:
+            raise MeshError(
+                "a function and a texture for the same mesh",
+                remedy="Give one of them, or bake the function into the texture.",
+            )
+        made.append(None if picture is None else make_texture(mesh, picture))
+    return made
 
 
 def _levels(level_set: Levels, f: Floats) -> tuple[float, ...]:

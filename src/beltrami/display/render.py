@@ -16,6 +16,7 @@ from beltrami.display.panels import Levels, make_panels, paired, place_cameras
 from beltrami.display.scene import CLAY, Style
 from beltrami.display.srgb import Color, Image
 from beltrami.errors import MeshError
+from beltrami.io.picture import Picture
 from beltrami.mesh.mesh import Mesh
 
 
@@ -30,6 +31,7 @@ def render(
     zoom: float = 1.0,
     focus: ArrayLike | None = None,
     camera: Camera | str | None = None,
+    texture: Picture | Sequence[Picture | None] | None = None,
     caption: str | Sequence[str] | None = None,
     columns: int | None = None,
     colormap: str | ArrayLike | None = None,
@@ -72,6 +74,9 @@ def render(
         A ``Camera`` for all panels, which then rules out the four above; or ``"common"``: one
         camera fitted to all meshes, so that their sizes and places compare. By default each
         mesh fills its panel.
+    texture
+        A picture on meshes with ``corner_uv``: ``"checkerboard"``, a file, or an array (h, w, 3)
+        or (h, w); see ``make_texture``. Or a list of these (or None), one for each mesh.
     caption, columns
         Text above each panel; panels in a row (all by default).
     colormap
@@ -145,7 +150,7 @@ def render(
     )
     meshes, functions, captions = paired(mesh, f, caption)
     cameras = place_cameras(meshes, camera, view=view, up=up, zoom=zoom, focus=focus)
-    panels = make_panels(meshes, functions, captions, cameras, colormap, limits, level_set)
+    panels = make_panels(meshes, functions, captions, cameras, colormap, limits, level_set, texture)
     if columns is not None and columns < 1:
         raise MeshError(f"{columns} columns, where at least 1 is needed")
     pictures = [draw_panel(panel, style) for panel in panels]

@@ -11,6 +11,7 @@ from beltrami._arrays import Floats, require_finite
 from beltrami.display.camera import Camera
 from beltrami.display.light import SHADINGS, Light
 from beltrami.display.srgb import Color, as_color
+from beltrami.display.texture import Texture
 from beltrami.errors import DimensionError, EmptyMeshError, MeshError, check_name, shown
 from beltrami.mesh.mesh import Mesh
 
@@ -71,6 +72,8 @@ class Panel:
     levels : tuple of float
         The level sets to draw.
     caption : str
+    texture : Texture, or None
+        A picture on the surface, instead of the function.
     """
 
     mesh: Mesh
@@ -80,6 +83,7 @@ class Panel:
     table: Floats | None = None
     levels: tuple[float, ...] = ()
     caption: str = ""
+    texture: Texture | None = None
 
 
 def check_mesh(mesh: Mesh) -> None:

@@ -7,10 +7,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Floats, Integers
 from beltrami._jit import kernel
 from beltrami.display.raster import Visible
 from beltrami.display.srgb import Image, to_linear
+from beltrami.display.texture import look_up
 from beltrami.display.triangles import GRID, Triangles
 
 _LINEAR = to_linear(np.linspace(0.0, 1.0, 1025))  # sRGB to light, interpolated: exact to 1e-6
@@ -37,6 +38,10 @@ class Paint(NamedTuple):
         sRGB of the level lines and of the sides.
     wire_width : float
         In samples; 0 draws no sides.
+    uv : (t, 3, 2) float
+        Where the corners lie on a texture, if there is one; NaN paints the values instead.
+    pixels, levels
+        Of a ``Texture``; empty for none.
     """
 
     values: Floats
@@ -49,6 +54,9 @@ class Paint(NamedTuple):
     line: Floats
     wire: Floats
     wire_width: float
+    uv: Floats = np.zeros((0, 3, 2))
+    pixels: NDArray[np.float32] = np.zeros((0, 3), np.float32)
+    levels: Integers = np.zeros((0, 3), np.int64)
 
 
 def shade(
@@ -89,6 +97,9 @@ def shade(
             float(paint.tint),
             np.stack([paint.background, paint.line, paint.wire]),
             float(paint.wire_width),
+            np.ascontiguousarray(paint.uv),
+            paint.pixels,
+            paint.levels,
             samples,
             _LINEAR,
         )
@@ -110,6 +121,9 @@ def _shade(
     tint: float,
     extras: Any,
     wire_width: float,
+    uv: Any,
+    pixels: Any,
+    levels: Any,
     samples: int,
     linear: Any,
 ) -> Any:
@@ -129,7 +143,10 @@ def _shade(
                 else:
                     behind, wire = _barycentric(xy[t], x, y, borders[t], wire_width, b)
                     light = _shared(back[t] if behind else front[t], nearness[t], b)
-                    _paint(values[t], table, b, color)
+                    if levels.shape[0] == 0 or np.isnan(uv[t]).any():
+                        _paint(values[t], table, b, color)
+                    else:
+                        _read(pixels, levels, uv[t], xy[t], nearness[t], x, y, b, color)
                     for c in range(3):
                         if behind:
                             color[c] += tint * (inside[c] - color[c])
@@ -207,6 +224,23 @@ def _paint(values: Any, table: Any, b: Any, color: Any) -> None:
     k = min(int(place), table.shape[0] - 2)
     for c in range(3):
         color[c] = table[k, c] + (place - k) * (table[k + 1, c] - table[k, c])
+
+
+@kernel
+def _read(
+    pixels: Any, levels: Any, uv: Any, xy: Any, nearness: Any, x: int, y: int, b: Any, color: Any
+) -> None:
+    """Set the colour to that of the texture, as sharp as the steps to the next samples allow."""
+    u = b[0] * uv[0, 0] + b[1] * uv[1, 0] + b[2] * uv[2, 0]
+    v = b[0] * uv[0, 1] + b[1] * uv[1, 1] + b[2] * uv[2, 1]
+    across = down = 0.0
+    for step in range(2):
+        _barycentric(xy, x + 1 - step, y + step, nearness, 0.0, b)
+        _shared(nearness, nearness, b)
+        du = b[0] * uv[0, 0] + b[1] * uv[1, 0] + b[2] * uv[2, 0] - u
+        dv = b[0] * uv[0, 1] + b[1] * uv[1, 1] + b[2] * uv[2, 1] - v
+        across, down = max(across, abs(du)), max(down, abs(dv))
+    look_up(pixels, levels, u, v, across, down, color)
 
 
 @kernel

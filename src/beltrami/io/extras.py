@@ -14,10 +14,13 @@ from beltrami._arrays import Floats
 from beltrami._optional import require
 from beltrami.errors import FileFormatError, MissingExtraError
 from beltrami.io.faces import fan, first_outside
+from beltrami.io.picture import Picture, as_pillow
 from beltrami.mesh.mesh import Mesh
 
 _MESHIO = (".vtk", ".vtu", ".msh", ".mesh", ".inp")
 _TRIMESH = (".glb", ".gltf")
+TEXTURED = (".glb",)
+_UV = "texture coordinates of a package"  # among the vertex data, until the mesh is made
 _FREESURFER = (".pial", ".white", ".inflated", ".sphere", ".orig", ".smoothwm")
 
 
@@ -56,7 +59,11 @@ def _checked(place: Path, vertices: Any, faces: Any, data: dict[str, Any]) -> Me
     if outside >= 0:
         raise FileFormatError(place, f"expected indices of vertices in triangle {outside // 3}")
     kept = {name: a for name, a in data.items() if a.dtype.kind in "biuf" and a.ndim in (1, 2)}
-    return Mesh(vertices, corners, {name: a for name, a in kept.items() if len(a) == len(vertices)})
+    kept = {name: a for name, a in kept.items() if len(a) == len(vertices)}
+    uv = kept.pop(_UV, None)
+    if uv is not None:
+        uv = np.where(np.isfinite(uv), uv, np.nan)[corners] if uv.shape[1:] == (2,) else None
+    return Mesh(vertices, corners, kept, uv)
 
 
 def _read_gifti(place: Path) -> Any:
@@ -85,7 +92,9 @@ def _read_trimesh(place: Path) -> Any:
     trimesh = require("trimesh", "io", f"reading {place.suffix}")
     scene = trimesh.load_scene(place, process=False)
     whole = scene.to_mesh()
-    return whole.vertices, whole.faces, {}
+    uv = getattr(whole.visual, "uv", None)
+    turns = {} if uv is None else {_UV: np.asarray(uv, np.float64)}
+    return whole.vertices, whole.faces, turns
 
 
 def encode(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
@@ -115,8 +124,25 @@ def _encode_meshio(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
 
 
 def _encode_trimesh(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
+    return encode_textured(mesh, vertices, suffix, None, None)
+
+
+def encode_textured(
+    mesh: Mesh, vertices: Floats, suffix: str, uv: Floats | None, texture: Picture | None
+) -> bytes:
+    """Return the bytes of a file with texture coordinates (m, 3, 2) and a picture."""
     trimesh = require("trimesh", "io", f"writing {suffix}")
-    whole = trimesh.Trimesh(np.array(vertices), np.array(mesh.faces), process=False)
+    x, faces, look = np.array(vertices), np.array(mesh.faces), None
+    if uv is not None:
+        corners = np.column_stack([faces.ravel(), np.nan_to_num(uv.reshape(-1, 2), nan=0.0)])
+        copies, turn = np.unique(corners, axis=0, return_inverse=True)
+        x, faces = x[copies[:, 0].astype(np.int64)], turn.reshape(-1, 3)
+        look = trimesh.visual.TextureVisuals(uv=copies[:, 1:])
+        if texture is not None:
+            look.material = trimesh.visual.material.PBRMaterial(
+                baseColorTexture=as_pillow(texture), metallicFactor=0.0, roughnessFactor=1.0
+            )
+    whole = trimesh.Trimesh(x, faces, visual=look, process=False)
     return bytes(whole.export(file_type=suffix[1:]))
 
 

@@ -12,13 +12,18 @@ from beltrami.errors import DimensionError
 from beltrami.io.text import write_rows
 from beltrami.mesh.mesh import Mesh
 
+MATERIAL = "texture"
 
-def write_obj(file: IO[bytes], mesh: Mesh, vertices: Floats, uv: Floats | None = None) -> None:
+
+def write_obj(
+    file: IO[bytes], mesh: Mesh, vertices: Floats, uv: Floats | None = None, material: str = ""
+) -> None:
     """Write an OBJ file with numbers that read back bit for bit.
 
     Texture coordinates are ``uv``, (n, 2) or (m, 3, 2), or else ``mesh.corner_uv``; equal ones
     are written once, a corner with NaN has none. The vertex data "color" goes along, (n, 3) or
-    (n, 4), bytes as fractions of 255; other vertex data are left out.
+    (n, 4), bytes as fractions of 255; other vertex data are left out. ``material`` is the name of
+    an MTL file, whose material ``MATERIAL`` all faces get.
 
     Raises
     ------
@@ -35,14 +40,18 @@ def write_obj(file: IO[bytes], mesh: Mesh, vertices: Floats, uv: Floats | None =
     >>> file.getvalue().splitlines()[-1]
     b'f 1 2 3'
     """
+    if material:
+        file.write(f"mtllib {material}\n".encode())
     rows = np.hstack([vertices, _colours(mesh)])
     write_rows(file, "v" + " %r" * rows.shape[1], rows)
-    corner_uv = _corner_uv(mesh, uv)
+    corner_uv = corner_texture(mesh, uv)
     if corner_uv is None:
         write_rows(file, "f %d %d %d", mesh.faces + 1)
         return
     points, turns = _shared(corner_uv)
     write_rows(file, "vt %r %r", points)
+    if material:
+        file.write(f"usemtl {MATERIAL}\n".encode())
     both = np.stack([mesh.faces + 1, turns + 1], axis=2).reshape(-1, 6)
     textured = np.asarray((turns >= 0).all(axis=1))
     edges = np.flatnonzero(np.diff(textured)) + 1
@@ -56,6 +65,11 @@ def write_obj(file: IO[bytes], mesh: Mesh, vertices: Floats, uv: Floats | None =
                 file.write(f"f {' '.join(words)}\n".encode("ascii"))
 
 
+def material_text(picture: str) -> bytes:
+    """Return an MTL file: the material ``MATERIAL``, with the colours of a picture file."""
+    return f"newmtl {MATERIAL}\nKa 0 0 0\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd {picture}\n".encode()
+
+
 def _colours(mesh: Mesh) -> Floats:
     colour = mesh.vertex_data.get("color")
     if colour is None or colour.ndim != 2 or colour.shape[1] not in (3, 4):
@@ -65,7 +79,8 @@ def _colours(mesh: Mesh) -> Floats:
     return colour / 255.0 if colour.dtype == np.uint8 else colour.astype(np.float64)
 
 
-def _corner_uv(mesh: Mesh, uv: Floats | None) -> Floats | None:
+def corner_texture(mesh: Mesh, uv: Floats | None) -> Floats | None:
+    """Return the texture coordinates (m, 3, 2): ``uv``, or else those of the mesh."""
     if uv is None:
         return mesh.corner_uv
     if uv.shape == (mesh.n_vertices, 2):

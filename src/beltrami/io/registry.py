@@ -12,13 +12,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, require_finite
-from beltrami.errors import DimensionError, EmptyMeshError, FileFormatError, check_name
+from beltrami.errors import (
+    DimensionError,
+    EmptyMeshError,
+    FileFormatError,
+    MeshError,
+    check_name,
+)
 from beltrami.io import extras
 from beltrami.io.atomic import replacing
 from beltrami.io.obj import read_obj
-from beltrami.io.obj_write import write_obj
+from beltrami.io.obj_write import corner_texture, material_text, write_obj
 from beltrami.io.off import read_off
 from beltrami.io.off_write import write_off
+from beltrami.io.picture import Picture, png_bytes
 from beltrami.io.ply import read_ply
 from beltrami.io.ply_write import write_ply
 from beltrami.io.source import Source, load
@@ -38,6 +45,7 @@ WRITERS: dict[str, Callable[[IO[bytes], Mesh, Floats], None]] = {
     ".ply": write_ply,
     ".stl": write_stl,
 }
+TEXTURED = (".obj", *extras.TEXTURED)
 _FLOAT32_MAX = float(np.finfo(np.float32).max)
 
 
@@ -60,7 +68,7 @@ def read_mesh(path: str | os.PathLike[str], format: str | None = None) -> Mesh: 
     Returns
     -------
     Mesh
-        With ``vertex_data`` (PLY, COFF, NOFF, coloured OBJ) and ``corner_uv`` (OBJ).
+        With ``vertex_data`` (PLY, COFF, NOFF, coloured OBJ) and ``corner_uv`` (OBJ, glTF).
 
     Raises
     ------
@@ -90,13 +98,18 @@ def read_mesh(path: str | os.PathLike[str], format: str | None = None) -> Mesh: 
     return extras.read(path, suffix)
 
 
-def write_mesh(path: str | os.PathLike[str], mesh: Mesh, uv: ArrayLike | None = None) -> None:
+def write_mesh(
+    path: str | os.PathLike[str],
+    mesh: Mesh,
+    uv: ArrayLike | None = None,
+    texture: Picture | None = None,
+) -> None:
     """Write a mesh to a file: wholly, or on any error or interrupt not at all.
 
     What a format cannot hold is left out: OBJ keeps coordinates, texture coordinates and the
     vertex data "color"; OFF coordinates, "color" and "normal"; PLY coordinates and all numeric
-    vertex data, with their types; STL only coordinates, rounded to 32 bits. Everything else
-    reads back bit for bit. A flat mesh (d = 2) is written with z = 0.
+    vertex data, with their types; STL only coordinates, rounded to 32 bits, as in GLB. Everything
+    else reads back bit for bit. A flat mesh (d = 2) is written with z = 0.
 
     Parameters
     ----------
@@ -106,12 +119,18 @@ def write_mesh(path: str | os.PathLike[str], mesh: Mesh, uv: ArrayLike | None = 
         The mesh, finite and with faces: what is written can be read.
     uv
         Texture coordinates (n, 2), or (m, 3, 2) for each corner, instead of ``mesh.corner_uv``:
-        only for OBJ.
+        only for OBJ and GLB, which holds them in single precision, and needs a copy of each
+        vertex for each of its coordinates.
+    texture
+        A picture to go with them, a file or an array: see ``render``. GLB holds it; with
+        ``a.obj`` the files ``a.mtl`` and ``a.png`` are written.
 
     Raises
     ------
     UnknownNameError
-        If the suffix is not known, or cannot hold ``uv``.
+        If the suffix is not known, or cannot hold ``uv`` or ``texture``.
+    MeshError, FileFormatError
+        If there is a texture but no coordinates, or it is no picture.
     DimensionError
         If the vertices have more than three coordinates, or ``uv`` another shape.
     EmptyMeshError
@@ -130,14 +149,35 @@ def write_mesh(path: str | os.PathLike[str], mesh: Mesh, uv: ArrayLike | None = 
     """
     suffix = suffix_of(path, None, (*WRITERS, *extras.WRITERS))
     vertices = _writable(mesh, suffix)
-    if uv is not None:
-        check_name("format for texture coordinates", suffix, (".obj",))
+    material = ""
+    turns = None if uv is None else np.asarray(uv, dtype=np.float64)
+    if turns is not None or texture is not None:
+        check_name("format for texture coordinates", suffix, TEXTURED)
+    if texture is not None:
+        if turns is None and mesh.corner_uv is None:
+            raise MeshError(
+                "a texture without texture coordinates",
+                remedy="Write parameterize(mesh).textured or atlas(mesh).mesh.",
+            )
+        if suffix == ".obj":
+            material = _write_material(Path(path), texture)
     with replacing(path) as whole:
         if Path(path).suffix.lower() == ".gz":
             with gzip.GzipFile("", "wb", fileobj=whole, mtime=0) as file:
-                _write(file, mesh, vertices, suffix, uv)
+                _write(file, mesh, vertices, suffix, turns, texture, material)
         else:
-            _write(whole, mesh, vertices, suffix, uv)
+            _write(whole, mesh, vertices, suffix, turns, texture, material)
+
+
+def _write_material(path: Path, texture: Picture) -> str:
+    """Write the picture and the material beside an OBJ file; return the name of the latter."""
+    stem = path.with_suffix("") if path.suffix.lower() == ".gz" else path
+    picture, material = stem.with_suffix(".png"), stem.with_suffix(".mtl")
+    with replacing(picture) as file:
+        file.write(png_bytes(texture))
+    with replacing(material) as file:
+        file.write(material_text(picture.name))
+    return material.name
 
 
 def suffix_of(path: str | os.PathLike[str], form: str | None, known: tuple[str, ...]) -> str:
@@ -156,13 +196,24 @@ def suffix_of(path: str | os.PathLike[str], form: str | None, known: tuple[str, 
     return check_name("file format", place.suffix, known)
 
 
-def _write(file: Any, mesh: Mesh, vertices: Floats, suffix: str, uv: ArrayLike | None) -> None:
-    if suffix in extras.WRITERS:
-        file.write(extras.encode(mesh, vertices, suffix))
-    elif uv is not None:
-        write_obj(file, mesh, vertices, np.asarray(uv, dtype=np.float64))
-    else:
+def _write(
+    file: Any,
+    mesh: Mesh,
+    vertices: Floats,
+    suffix: str,
+    uv: Floats | None,
+    texture: Picture | None,
+    material: str,
+) -> None:
+    if suffix == ".obj":
+        write_obj(file, mesh, vertices, uv, material)
+    elif suffix in WRITERS:
         WRITERS[suffix](file, mesh, vertices)
+    elif suffix in extras.TEXTURED:
+        turns = corner_texture(mesh, uv)
+        file.write(extras.encode_textured(mesh, vertices, suffix, turns, texture))
+    else:
+        file.write(extras.encode(mesh, vertices, suffix))
 
 
 def _writable(mesh: Mesh, suffix: str) -> Floats:

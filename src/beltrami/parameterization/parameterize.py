@@ -17,6 +17,7 @@ from beltrami.operators.soundness import refuse_unreferenced, require_sound
 from beltrami.operators.weights import Weigher, edge_weights
 from beltrami.parameterization.boundary import Curve, place_boundary, refuse_dividing_edges
 from beltrami.parameterization.harmonic import solve_harmonic
+from beltrami.parameterization.holes import HOLES, fill_holes, without_fillings
 from beltrami.parameterization.layout import part_of, side_by_side
 from beltrami.parameterization.parameterization import Parameterization, certified
 from beltrami.parameterization.relaxation import relax
@@ -57,6 +58,7 @@ def parameterize(
     corners: ArrayLike | None = None,
     bulge: float = 0.0,
     cut: bool = True,
+    holes: str = "cut",
     seams: int = 0,
     strict: bool = True,
 ) -> Parameterization:
@@ -97,6 +99,10 @@ def parameterize(
         one side, 0.01 helps.
     cut
         False refuses what is not a disk, rather than cutting it.
+    holes
+        What to do with all boundaries of a component but the longest: ``"cut"`` leads a seam to
+        each; ``"fill"`` closes them with faces that are dropped when the map is made, so that
+        they lie within it as holes, and nothing is torn.
     seams
         Up to so many more cuts in each component, from the boundary to the vertex that is
         stretched most, as long as each lowers the distortion by 5 %.
@@ -140,6 +146,21 @@ def parameterize(
         refuse_unreferenced(mesh.topology)
     if seams < 0:
         raise MeshError(f"the number of seams cannot be {seams}")
+    if check_name("treatment of holes", holes, HOLES) == "fill":
+        filled = fill_holes(mesh)
+        psi = parameterize(
+            filled.mesh,
+            method,
+            weights,
+            boundary,
+            spacing=spacing,
+            corners=corners,
+            bulge=bulge,
+            cut=cut,
+            seams=seams,
+            strict=strict,
+        )
+        return without_fillings(psi, mesh, filled, strict=strict)
     kinds: tuple[str | Weigher, ...] = (weights,) if weights is not None else _DEFAULTS[method]
     asked = _Request(method, kinds, boundary, spacing, corners, bulge)
     current = cut_to_disk(mesh) if cut else _as_it_is(mesh)

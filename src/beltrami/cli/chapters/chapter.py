@@ -39,6 +39,10 @@ class Chapter:
         Results in the folder: (name, what it is).
     commands
         How to get the same from the command line.
+    seconds
+        How long it took, if it was measured.
+    warnings
+        What was warned of on the way.
     """
 
     title: str
@@ -48,6 +52,8 @@ class Chapter:
     figures: tuple[Figure, ...] = ()
     files: tuple[tuple[str, str], ...] = ()
     commands: tuple[str, ...] = ()
+    seconds: float | None = None
+    warnings: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

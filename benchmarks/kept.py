@@ -1,0 +1,55 @@
+"""What was measured, kept in the folder of a run: one that was stopped goes on from there."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+from benchmarks.cases import Case
+from benchmarks.claims import Row
+from benchmarks.harness import Measured, Table
+
+NAME = "measured.json"
+FACTS = [field.name for field in fields(Measured) if field.name != "contender"]
+
+
+def keep(folder: Path, tables: Sequence[Table]) -> None:
+    """Write the tables, all but what the rows themselves know."""
+    stored = [
+        {
+            "row": table.row.name,
+            "case": table.case,
+            "n_vertices": table.n_vertices,
+            "n_faces": table.n_faces,
+            "measured": [
+                {"name": one.contender.name} | {fact: getattr(one, fact) for fact in FACTS}
+                for one in table.measured
+            ],
+        }
+        for table in tables
+        if not table.problem
+    ]
+    partial = folder / f"{NAME}.partial"
+    partial.write_text(json.dumps(stored, indent=1))
+    partial.replace(folder / NAME)
+
+
+def kept(folder: Path, row: Row, case: Case) -> Table | None:
+    """Return the table of a row that was measured before, or None."""
+    path = folder / NAME
+    stored: list[dict[str, Any]] = json.loads(path.read_text()) if path.exists() else []
+    for one in stored:
+        if (one["row"], one["case"]) == (row.name, case.name):
+            named = {contender.name: contender for contender in row.contenders(case)}
+            measured = tuple(
+                Measured(
+                    named[facts["name"]],
+                    **{fact: facts[fact] for fact in FACTS} | {"seconds": tuple(facts["seconds"])},
+                )
+                for facts in one["measured"]
+            )
+            return Table(row, case.name, one["n_vertices"], one["n_faces"], measured)
+    return None

@@ -1,0 +1,92 @@
+"""Holes: filled for as long as a map is made, so that no cut has to lead to them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from beltrami._arrays import Booleans, Floats, Integers, read_only
+from beltrami.mesh.cut import Cut, cut_along
+from beltrami.mesh.mesh import Mesh
+from beltrami.parameterization.parameterization import Parameterization, certified
+
+HOLES = ("cut", "fill")
+_HEIGHT = 0.01  # of the tip above a hole, over its length: no fan has a face without area
+
+
+@dataclass(frozen=True, eq=False)
+class Filled:
+    """A surface with a fan of faces over each hole.
+
+    Attributes
+    ----------
+    mesh : Mesh
+        The vertices and faces of ``apart`` first. It has one coordinate more, which is 0 but for
+        the tips of the fans: a fan has area whatever the shape of the hole.
+    apart : Cut
+        The surface, cut apart where it is not a manifold.
+    """
+
+    mesh: Mesh
+    apart: Cut
+
+
+def fill_holes(mesh: Mesh) -> Filled:
+    """Fill all boundary loops but the longest of each component.
+
+    Examples
+    --------
+    >>> from beltrami.mesh.shapes import cylinder
+    >>> filled = fill_holes(cylinder(6, 2))
+    >>> filled.mesh.euler_characteristic, len(filled.mesh.boundary_loops), filled.mesh.dimension
+    (1, 1, 4)
+    """
+    apart = cut_along(mesh, np.zeros(mesh.topology.n_edges, np.bool_))
+    x, faces = apart.mesh.vertices, apart.mesh.faces
+    label = np.empty(len(x), np.int64)
+    label[faces.ravel()] = np.repeat(apart.mesh.components(), 3)
+    loops = apart.mesh.boundary_loops
+    lengths = [_length(x[loop]) for loop in loops]
+    longest: dict[int, int] = {}
+    for q, loop in enumerate(loops):
+        own = int(label[loop[0]])
+        if own not in longest or lengths[q] > lengths[longest[own]]:
+            longest[own] = q
+    tips: list[Floats] = []
+    fans = [faces]
+    for q, loop in enumerate(loops):
+        if q == longest[int(label[loop[0]])]:
+            continue
+        tip = np.full(len(loop), len(x) + len(tips))
+        fans.append(np.stack([np.roll(loop, -1), loop, tip], axis=1))
+        tips.append(np.append(x[loop].mean(axis=0), _HEIGHT * lengths[q]))
+    lifted = np.hstack([x, np.zeros((len(x), 1))])
+    return Filled(Mesh(np.vstack([lifted, *tips]), np.concatenate(fans)), apart)
+
+
+def _length(loop: Floats) -> float:
+    return float(np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1).sum())
+
+
+def without_fillings(
+    psi: Parameterization, mesh: Mesh, filled: Filled, *, strict: bool
+) -> Parameterization:
+    """Restrict the map of a filled surface to the surface: a bijection stays one."""
+    apart = filled.apart
+    n, m = apart.mesh.n_vertices, apart.mesh.n_faces
+    used, faces = np.unique(psi.mesh.faces[:m], return_inverse=True)
+    vertex_map = apart.vertex_map[psi.vertex_map[used]]
+    data = {name: values[vertex_map] for name, values in mesh.vertex_data.items()}
+    opened = Mesh(mesh.vertices[vertex_map], faces.reshape(-1, 3), data, mesh.corner_uv)
+    inner = psi.cut_edges[_both_sides_are_real(psi.cut_edges, apart.mesh, n)]
+    edges = np.concatenate([apart.edges, np.sort(apart.vertex_map[inner], axis=1)])
+    cut = Cut(opened, read_only(vertex_map), read_only(edges))
+    return certified(mesh, cut, psi.uv[used], f"{psi.method}, holes filled", strict=strict)
+
+
+def _both_sides_are_real(edges: Integers, mesh: Mesh, n: int) -> Booleans:
+    """Say which edges are inner edges of the surface: not of a fan, and not of the rim of one."""
+    rim = mesh.topology.boundary_edges
+    on_rim = np.isin(edges[:, 0] * n + edges[:, 1], rim[:, 0] * n + rim[:, 1])
+    return np.asarray((edges < n).all(axis=1) & ~on_rim)

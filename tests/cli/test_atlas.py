@@ -1,0 +1,87 @@
+import json
+
+import numpy as np
+import pytest
+
+from beltrami.display.bake import bake, colorize
+from beltrami.display.texture import checkerboard
+from beltrami.io.picture import as_picture
+from beltrami.io.registry import read_mesh, write_mesh
+from beltrami.mesh.shapes import icosphere, torus
+from beltrami.parameterization.atlas import atlas
+
+
+@pytest.fixture
+def ball(tmp_path):
+    path = tmp_path / "ball.obj"
+    write_mesh(path, icosphere(2))
+    return path
+
+
+def test_it_writes_what_atlas_returns(beltrami, ball, tmp_path):
+    done = beltrami("atlas", ball, "-o", tmp_path / "out.obj", "--size", 256, "--count", 3)
+    assert done.exit_code == 0, done.stderr
+    found = atlas(read_mesh(ball), 3, size=256)
+    back = read_mesh(tmp_path / "out.obj")
+    np.testing.assert_array_equal(back.corner_uv, found.uv)
+    assert f"atlas: 3 charts, {len(found.seams)} edges cut" in done.stdout
+    assert "certificate: no overlap; 0 of 320 faces flipped, 0 crossings" in done.stdout
+    assert f"of the worst chart {found.chart_distortion.max():.4g}" in done.stdout
+    assert not (tmp_path / "out.mtl").exists()
+
+
+def test_a_checkerboard(beltrami, ball, tmp_path):
+    words = ("-o", tmp_path / "out.obj", "--size", 64, "--texture", "checkerboard")
+    done = beltrami("atlas", ball, *words)
+    assert done.exit_code == 0, done.stderr
+    np.testing.assert_allclose(as_picture(tmp_path / "out.png"), checkerboard(64), atol=1 / 255)
+
+
+def test_a_picture_of_the_user(beltrami, ball, tmp_path):
+    write_mesh(tmp_path / "x.obj", read_mesh(ball), np.zeros((162, 2)), checkerboard(8))
+    words = ("-o", tmp_path / "out.glb", "--texture", tmp_path / "x.png")
+    done = beltrami("atlas", ball, *words)
+    assert done.exit_code == 0, done.stderr
+    assert read_mesh(tmp_path / "out.glb").corner_uv.shape == (320, 3, 2)
+    done = beltrami("atlas", ball, "-o", tmp_path / "out.glb", "--texture", tmp_path / "no.png")
+    assert done.exit_code == 1
+
+
+def test_functions_are_baked(beltrami, ball, tmp_path):
+    f = read_mesh(ball).vertices[:, 0]
+    np.save(tmp_path / "f.npy", f)
+    words = ("-o", tmp_path / "out.obj", "--size", 64, "--data", tmp_path / "f.npy")
+    done = beltrami("atlas", ball, *words, "--limits", -2, 2)
+    assert done.exit_code == 0, done.stderr
+    expected = colorize(bake(atlas(read_mesh(ball), size=64), f), None, (-2.0, 2.0))
+    np.testing.assert_allclose(as_picture(tmp_path / "out.png") * 255, expected)
+
+
+def test_json(beltrami, ball, tmp_path):
+    done = beltrami("atlas", ball, "-o", tmp_path / "out.obj", "--json")
+    told = json.loads(done.stdout)
+    assert told["bijective"] is True
+    assert told["charts"] == 2
+    assert len(told["labels"]) == 320
+    assert told["flipped"] == told["crossings"] == []
+
+
+def test_bad_requests(beltrami, ball, tmp_path):
+    assert beltrami("atlas", ball, "-o", tmp_path / "out.ply").exit_code == 1
+    assert beltrami("atlas", ball, "-o", tmp_path / "out.obj", "--size", 3).exit_code == 1
+    words = ("atlas", ball, "-o", tmp_path / "out.obj")
+    assert beltrami(*words, "--max-distortion", 1).exit_code == 1
+    assert beltrami(*words, "--colormap", "gray").exit_code == 2
+    np.save(tmp_path / "f.npy", np.zeros(3))
+    assert beltrami(*words, "--data", tmp_path / "f.npy").exit_code == 1
+    both = ("--data", tmp_path / "f.npy", "--texture", "checkerboard")
+    assert beltrami(*words, *both).exit_code == 2
+    assert not (tmp_path / "out.obj").exists()
+
+
+def test_parameterize_prints_the_certificate_of_closed_surfaces(beltrami, tmp_path):
+    write_mesh(tmp_path / "ring.obj", torus(12, 8))
+    done = beltrami("parameterize", tmp_path / "ring.obj", "-o", tmp_path / "out.obj")
+    assert done.exit_code == 0, done.stderr
+    assert "certificate: a bijection" in done.stdout
+    assert "20 edges cut" in done.stdout

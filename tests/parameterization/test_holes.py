@@ -1,0 +1,104 @@
+"""Holes filled for the map: nothing is torn, and the map is a bijection all the same."""
+
+import numpy as np
+import pytest
+
+from beltrami.errors import NotADiskError, UnknownNameError
+from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.shapes import cylinder, disk, grid, icosphere, torus
+from beltrami.parameterization.certificate import certify
+from beltrami.parameterization.holes import fill_holes
+from beltrami.parameterization.parameterize import parameterize
+from surfaces_to_part import side_by_side
+
+
+def pierced(mesh, *vertices):
+    """Take the faces around some vertices out."""
+    kept = ~np.isin(mesh.faces, vertices).any(axis=1)
+    used, local = np.unique(mesh.faces[kept], return_inverse=True)
+    return Mesh(mesh.vertices[used], local.reshape(-1, 3))
+
+
+FLAT = pierced(grid(12, 12, dimension=3), 30, 80, 100)
+SURFACES = {
+    "flat, three holes": FLAT,
+    "cylinder": cylinder(12, 4),
+    "sphere, three holes": pierced(icosphere(3), 0, 1, 2),
+    "torus, two holes": pierced(torus(16, 12), 20, 100),
+    "disk": disk(4, dimension=3),
+    "closed": icosphere(2),
+    "two parts": side_by_side(FLAT, cylinder(12, 4)),
+}
+
+
+@pytest.mark.chapter("P69", "U38")
+@pytest.mark.parametrize("method", ["auto", "free"])
+@pytest.mark.parametrize("name", SURFACES)
+def test_maps_with_holes_are_bijections(name, method):
+    mesh = SURFACES[name]
+    psi = parameterize(mesh, method, holes="fill")
+    assert psi.is_bijective
+    assert certify(psi.mesh.topology, psi.uv).is_bijective
+    np.testing.assert_array_equal(psi.vertex_map[psi.mesh.faces], mesh.faces)
+    np.testing.assert_array_equal(psi.mesh.vertices, mesh.vertices[psi.vertex_map])
+    if name not in ("torus, two holes", "closed"):
+        assert len(psi.cut_edges) == 0
+        assert len(psi.mesh.boundary_loops) == len(mesh.boundary_loops)
+    else:  # what closes or has a handle is cut
+        assert len(psi.cut_edges) > 0
+
+
+@pytest.mark.parametrize("name", SURFACES)
+def test_what_is_filled_has_one_boundary_at_most(name):
+    mesh = SURFACES[name]
+    filled = fill_holes(mesh).mesh
+    components = filled.topology.n_components
+    assert len(filled.boundary_loops) == (0 if name == "closed" else components)
+    assert filled.is_oriented
+    assert filled.is_manifold
+    np.testing.assert_array_equal(filled.vertices[: mesh.n_vertices, :3], mesh.vertices)
+    assert filled.face_areas.min() > 0
+
+
+def test_the_longest_boundary_stays_open():
+    cone = cylinder(12, 4)
+    x = cone.vertices * (1 + cone.vertices[:, 2:]) ** np.array([1, 1, 0])  # wider above
+    filled = fill_holes(Mesh(x, cone.faces)).mesh
+    (rim,) = filled.boundary_loops
+    assert np.ptp(x[rim, 2]) == 0
+    assert x[rim[0], 2] == x[:, 2].max()
+
+
+def test_a_slit_is_a_hole_too():
+    """A hole without area: two copies of the edges of a path."""
+    square = grid(6, 6, dimension=3)
+    from beltrami.mesh.cut import cut_along
+
+    inner = np.flatnonzero(np.isclose(square.vertices[:, 0], 0.5))[1:-1]
+    chosen = np.isin(square.edges, inner).all(axis=1)
+    slit = cut_along(square, chosen).mesh
+    assert len(slit.boundary_loops) == 2
+    psi = parameterize(slit, "free", holes="fill")
+    assert psi.is_bijective
+    assert psi.distortion.symmetric_dirichlet < 1.01
+
+
+def test_less_is_torn_and_less_is_distorted():
+    torn, whole = (parameterize(FLAT, "free", holes=h) for h in ("cut", "fill"))
+    assert len(torn.cut_edges) > 0
+    assert len(whole.cut_edges) == 0
+    assert whole.distortion.symmetric_dirichlet < 1 + 1e-3
+    ring = SURFACES["cylinder"]
+    circle = [parameterize(ring, holes=h).distortion.symmetric_dirichlet for h in ("cut", "fill")]
+    assert circle[1] < circle[0]
+
+
+def test_what_needs_no_cut_needs_no_leave():
+    assert parameterize(FLAT, holes="fill", cut=False).is_bijective
+    with pytest.raises(NotADiskError):
+        parameterize(FLAT, cut=False)
+
+
+def test_bad_treatments_are_told():
+    with pytest.raises(UnknownNameError, match="fill"):
+        parameterize(FLAT, holes="fil")
