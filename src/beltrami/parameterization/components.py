@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from beltrami._arrays import Booleans, Floats, Integers, read_only
 from beltrami.errors import MeshError
