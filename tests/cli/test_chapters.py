@@ -10,6 +10,7 @@ from beltrami.cli.chapters.files import files
 from beltrami.cli.chapters.geodesics import geodesics
 from beltrami.cli.chapters.grid import grid as flat_grid
 from beltrami.cli.chapters.heat import heat
+from beltrami.cli.chapters.interactive import interactive
 from beltrami.cli.chapters.operators import operators
 from beltrami.cli.chapters.spectrum import spectrum
 from beltrami.cli.chapters.surface import surface
@@ -42,8 +43,8 @@ MESHES = {
     ),
 }
 CHAPTERS = (
-    surface, operators, averaging, flat_grid, heat, denoising, waves, spectrum, compression,
-    geodesics, files,
+    interactive, surface, operators, averaging, flat_grid, heat, denoising, waves, spectrum,
+    compression, geodesics, files,
 )  # fmt: skip
 
 

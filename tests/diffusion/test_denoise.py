@@ -425,3 +425,11 @@ def test_progress_is_told():
     told = []
     denoise(noisy(shapes.icosphere(2), 0.2)[0], progress=lambda done, total: told.append(done))
     assert told == [1, 2]
+
+
+@pytest.mark.parametrize("noise", [1e3, 1e12, 1e100])
+def test_noise_that_is_larger_than_the_mesh_is_a_number_too(noise):
+    found = denoise(shapes.icosphere(1), noise=noise)
+    assert np.isfinite(found.mesh.vertices).all()
+    weights = best_mixture(np.diag([0.0, 1e-24]), np.array([1.0, 0.5]), noise)
+    assert weights == pytest.approx([0, 1])  # the one that keeps less of the noise

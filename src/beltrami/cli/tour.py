@@ -85,6 +85,7 @@ def _play(stage: Stage) -> list[Chapter]:
     from beltrami.cli.chapters.geodesics import geodesics
     from beltrami.cli.chapters.grid import grid
     from beltrami.cli.chapters.heat import heat
+    from beltrami.cli.chapters.interactive import interactive
     from beltrami.cli.chapters.maps import maps
     from beltrami.cli.chapters.operators import operators
     from beltrami.cli.chapters.spectrum import spectrum
@@ -92,7 +93,8 @@ def _play(stage: Stage) -> list[Chapter]:
     from beltrami.cli.chapters.waves import waves
 
     acts: tuple[Callable[[Stage], Chapter], ...] = (
-        surface, operators, averaging, grid, heat, denoising, waves, spectrum, compression, maps,
+        interactive, surface, operators, averaging, grid, heat, denoising, waves, spectrum,
+        compression, maps,
         geodesics, files,
     )  # fmt: skip
     played = []

@@ -9,6 +9,7 @@ from beltrami._arrays import Floats
 
 _RIDGE = 1e-10  # of the Gram matrix: candidates are nearly alike
 _STIFF = 1e3  # how hard the sum of the weights is held at 1
+_STEEP = 1e3  # from here on only the divergence counts: noise that is much larger than the mesh
 
 
 def mixture_risk(weights: Floats, gram: Floats, divergence: Floats, sigma: float) -> float:
@@ -52,7 +53,9 @@ def best_mixture(gram: Floats, divergence: Floats, sigma: float) -> Floats:
     if size == 0:  # no candidate moves anything
         return np.full(c, 1 / c)
     factor = np.linalg.cholesky(gram / size + _RIDGE * np.eye(c))
-    target = np.linalg.solve(factor, -(sigma**2) / size * divergence)
+    slope = sigma**2 / size * divergence
+    slope *= min(1.0, _STEEP / max(float(np.abs(slope).max()), 1.0))
+    target = np.linalg.solve(factor, -slope)
     system = np.vstack([factor.T, np.full((1, c), _STIFF)])
     weights, _ = nnls(system, np.append(target, _STIFF), maxiter=100 * c)
     return np.asarray(weights / weights.sum())
