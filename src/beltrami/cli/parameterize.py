@@ -44,6 +44,9 @@ def parameterize(
     seams: Annotated[
         int, typer.Option(min=0, help="Up to so many more cuts, each to lower the distortion.")
     ] = 0,
+    holes: Annotated[
+        str, typer.Option(help="cut: a seam to each; fill: closed while the map is made.")
+    ] = "cut",
     no_cut: Annotated[
         bool, typer.Option("--no-cut", help="Refuse what is not a disk, rather than cut it.")
     ] = False,
@@ -68,6 +71,7 @@ def parameterize(
             curve,
             spacing=spacing,
             bulge=bulge,
+            holes=holes,
             seams=seams,
             cut=not no_cut,
             strict=not allow_folds,
