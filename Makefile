@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 
-.PHONY: tour test test-heavy test-browser docs-map lint bench bench-large clean
+.PHONY: tour test test-heavy test-browser test-neighbours docs docs-outputs docs-map lint bench bench-large clean
 
 $(VENV)/.installed: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -27,8 +27,25 @@ test: $(VENV)/.installed  ## lint, types, import rule and every unmarked test
 test-heavy: $(VENV)/.installed  ## fuzzing at length, millions of vertices
 	$(BIN)/python -m pytest -m heavy
 
-test-browser: $(VENV)/.installed  ## the tour's index page in a real Chromium
+$(VENV)/.browser: $(VENV)/.installed
+	$(BIN)/python -m pip install --quiet --group browser
+	touch $@
+
+test-browser: $(VENV)/.browser  ## the pages in a real Chromium, and their modules in node
 	$(BIN)/python -m pytest -m browser
+
+test-neighbours:  ## meshes there and back through pyvista, open3d and polyscope: half a gigabyte
+	$(PYTHON) -m venv .venv-neighbours
+	.venv-neighbours/bin/python -m pip install --quiet --upgrade "pip>=25.1"
+	.venv-neighbours/bin/python -m pip install --quiet --editable ".[all,view]" --group neighbours
+	.venv-neighbours/bin/python -m pytest -p no:dash tests/mesh/test_neighbours.py  # open3d brings dash
+
+docs: $(VENV)/.installed  ## the site, in site/; a warning is an error
+	$(BIN)/python -m pip install --quiet --group docs
+	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet docs site
+
+docs-outputs: $(VENV)/.installed  ## what the code on the pages prints, as it stands below it
+	$(BIN)/python docs/outputs.py
 
 docs-map:  ## docs/chapter-map.md, from the markers in the code and in the tests
 	$(PYTHON) docs/chapter_map.py
@@ -44,4 +61,4 @@ bench-large:  ## solver and spectra to 2.1M vertices, after `make bench`; writes
 	.venv-bench/bin/python -m benchmarks --large
 
 clean:
-	rm -rf $(VENV) .venv-bench tour dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) .venv-bench .venv-neighbours tour site dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

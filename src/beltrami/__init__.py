@@ -18,6 +18,8 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from beltrami._carded import register_drawer
+
 if TYPE_CHECKING:
     from beltrami import errors as errors
     from beltrami.compression.compress import compress as compress
@@ -39,6 +41,8 @@ if TYPE_CHECKING:
     from beltrami.display.bake import colorize as colorize
     from beltrami.display.light import DirectionalLight as DirectionalLight
     from beltrami.display.light import SpotLight as SpotLight
+    from beltrami.display.page import Page as Page
+    from beltrami.display.page import page as page
     from beltrami.display.render import render as render
     from beltrami.display.spectrum_plot import plot_spectrum as plot_spectrum
     from beltrami.geodesics.distance import geodesic_distance as geodesic_distance
@@ -131,6 +135,8 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"
 
+register_drawer("beltrami.display.cards")  # no room on the way there may import it
+
 _HOME = {
     "Atlas": "surfaces.atlas",
     "Certificate": "parameterization.certificate",
@@ -155,6 +161,7 @@ _HOME = {
     "Laplacian": "operators.pair",
     "Mesh": "mesh.mesh",
     "NodalDomains": "spectrum.nodal_domains",
+    "Page": "display.page",
     "Parameterization": "parameterization.parameterization",
     "ParametricSurface": "surfaces.surface",
     "PointCloud": "operators.point_cloud",
@@ -214,6 +221,7 @@ _HOME = {
     "meyer_frame": "spectrum.wavelets",
     "minres": "solvers.minres",
     "nodal_domains": "spectrum.nodal_domains",
+    "page": "display.page",
     "parameterize": "parameterization.parameterize",
     "plot_spectrum": "display.spectrum_plot",
     "poisson": "diffusion.poisson",

@@ -1,28 +1,19 @@
 """The index page of a tour in a real Chromium: pictures load, nothing is fetched, phones fit."""
 
 import json
-import os
 import re
-import shutil
 import subprocess
 from html import unescape
 from pathlib import Path
 
 import pytest
 
+from browsers import FLAGS as COMMON
+from browsers import chromium
+
 pytestmark = pytest.mark.browser
 
-FLAGS = (
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--host-resolver-rules=MAP * ~NOTFOUND",  # whatever the browser itself wants to know
-)
+FLAGS = ("--headless", "--disable-gpu", *COMMON)
 # Put into a copy of the page: when all is loaded, what there is is written where --dump-dom sees.
 PROBE = """<script>addEventListener("load", () => {
   const told = document.createElement("output");
@@ -35,14 +26,6 @@ PROBE = """<script>addEventListener("load", () => {
   });
   document.body.append(told);
 });</script>"""
-
-
-def chromium():
-    names = (os.environ.get("BELTRAMI_CHROMIUM", ""), "chromium", "chromium-browser")
-    found = next(filter(None, map(shutil.which, filter(None, names))), None)
-    if found is None:
-        pytest.fail("Chromium is not installed: install it, or name it in BELTRAMI_CHROMIUM")
-    return found
 
 
 def visit(page: Path, folder: Path, width: int):

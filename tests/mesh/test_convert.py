@@ -2,13 +2,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import given
 
 from beltrami.errors import MeshError
 from beltrami.mesh.convert import as_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import icosphere
-from strategies import any_meshes
 
 X, F = icosphere(0).vertices, icosphere(0).faces
 
@@ -49,15 +47,6 @@ def test_objects_of_other_libraries(source):
     mesh = as_mesh(source)
     assert np.array_equal(mesh.vertices, X)
     assert np.array_equal(mesh.faces, F)
-
-
-@pytest.mark.parametrize("target", ["trimesh", "meshio"])
-@given(mesh=any_meshes())
-def test_there_and_back(target, mesh):
-    pytest.importorskip(target)
-    back = as_mesh(mesh.to(target))
-    assert np.array_equal(back.vertices, mesh.vertices)
-    assert np.array_equal(back.faces, mesh.faces)
 
 
 def test_what_comes_back_cannot_be_changed_from_outside():

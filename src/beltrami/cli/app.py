@@ -20,6 +20,7 @@ from beltrami.cli.geodesics import geodesics
 from beltrami.cli.heat import heat
 from beltrami.cli.info import info
 from beltrami.cli.integrate import integrate
+from beltrami.cli.page import page
 from beltrami.cli.parameterize import parameterize
 from beltrami.cli.regularize import regularize
 from beltrami.cli.render import render
@@ -58,6 +59,7 @@ for verb in (
     atlas,
     flatten,
     render,
+    page,
     tour,
 ):
     app.command()(ending_well(verb))

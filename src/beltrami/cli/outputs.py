@@ -80,6 +80,15 @@ def check_basis_output(path: Path) -> None:
     check_name("format for a basis", path.suffix.lower(), (".npz",))
 
 
+def check_page_output(path: Path) -> None:
+    """Raise now what writing a page to ``path`` would raise after the work."""
+    from beltrami.display.page import SUFFIXES
+    from beltrami.errors import check_name
+
+    _check_place(path)
+    check_name("suffix of a page", path.suffix.lower(), SUFFIXES)
+
+
 def _check_place(path: Path) -> None:
     """Refuse a directory, and a folder that is not there or cannot be written."""
     place = Path(os.path.realpath(path))

@@ -10,6 +10,7 @@ from typing import TypeVar
 import numpy as np
 
 from beltrami._arrays import Floats
+from beltrami._carded import Carded
 from beltrami._progress import Progress
 from beltrami.diffusion.candidates import (
     LINEAR,
@@ -42,7 +43,7 @@ _LEAST = 0.005  # weights below this are left out
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Denoised:
+class Denoised(Carded):
     """A denoised mesh, and what was found and done.
 
     Attributes

@@ -65,12 +65,12 @@ class Grid(Points):
     def make_laplacian(self, weights: str | None = None, mass: str | None = None) -> Laplacian:
         r"""Return the pair (L, B); ``laplacian(grid, weights, mass)`` calls this.
 
-        ==================  ==================================================================
+        ===================  =================================================================
         ``"combinatorial"``  :math:`w = 1` (default)
         ``"distance"``       :math:`w = 1/h_a^2` along axis a: L ≈ -Δ, with the unit mass (U21)
         ``"dirichlet"``      :math:`w = h_1 \cdots h_d / h_a^2`: :math:`\langle Lf, f\rangle
                              \approx \int |\nabla f|^2`, and B⁻¹L ≈ -Δ with the Voronoi mass
-        ==================  ==================================================================
+        ===================  =================================================================
 
         The mass is ``"degree"`` (default, B = D), ``"voronoi"`` (default for Dirichlet weights:
         the measure :math:`h_1 \cdots h_d` of the cell of a point; they add to that of the box)

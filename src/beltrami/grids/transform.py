@@ -18,14 +18,14 @@ CONVENTIONS = ("text", "unitary", "numpy")
 def dft(f: ArrayLike, convention: str = "unitary") -> NDArray[np.complex128]:
     r"""Return the discrete Fourier transform along every axis (definition 12).
 
-    ============  ==========================================================================
+    =============  =========================================================================
     ``"unitary"``  :math:`n^{-1/2} \sum_k f_k e^{-2i\pi\langle k,\omega/p\rangle}`, which is
                    :math:`\langle f, u_\omega\rangle` of theorem 11: it keeps the norm (Parseval)
     ``"numpy"``    :math:`\sum_k f_k e^{-2i\pi\langle k,\omega/p\rangle}`: convolutions become
                    products, with no factor (theorem 4, E34)
     ``"text"``     :math:`\frac1n \sum_k f_k e^{+2i\pi\langle k,\omega/p\rangle}`: definition
                    12 as it is printed, which is numpy's *inverse* transform (E35)
-    ============  ==========================================================================
+    =============  =========================================================================
 
     with :math:`\langle k, \omega/p\rangle = \sum_a k_a\omega_a/p_a` and n the number of values.
 

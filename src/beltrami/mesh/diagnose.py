@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from beltrami._arrays import Booleans, Integers, read_only
+from beltrami._carded import Carded
 from beltrami.mesh.door import require_mesh
 from beltrami.mesh.duplicates import duplicate_faces, duplicate_vertices
 from beltrami.mesh.geometry import degenerate_faces
@@ -35,7 +36,7 @@ class Defect:
 
 
 @dataclass(frozen=True, eq=False)
-class Diagnosis:
+class Diagnosis(Carded):
     """What is wrong with a mesh, as indices; every array is empty for a clean mesh.
 
     Attributes

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from beltrami._arrays import Floats, Integers, frozen, read_only
+from beltrami._carded import Carded
 from beltrami._frozen import Frozen
 from beltrami.errors import (
     DimensionError,
@@ -24,7 +25,7 @@ from beltrami.mesh.requirements import require_edge_manifold, require_oriented
 from beltrami.mesh.topology import Topology
 
 
-class Mesh(Frozen):
+class Mesh(Frozen, Carded):
     """A triangle mesh: the topology M = (V, E, F) and positions x_i (section 3.1.2).
 
     Nothing is reordered, merged or repaired. Shapes and indices are checked here; defects
@@ -121,8 +122,13 @@ class Mesh(Frozen):
         return Mesh(self.vertices, self.topology, {**self.vertex_data, **functions}, self.corner_uv)
 
     def to(self, target: str) -> Any:
-        """Return this mesh as an object of "trimesh", "pyvista", "meshio", "open3d" or "arrays"."""
-        return export(self.vertices, self.faces, target)
+        """Return this mesh as an object of another library, in order; ``as_mesh`` is the way back.
+
+        "trimesh", "pyvista" and "meshio" take ``vertex_data`` along, "open3d" (its newer kind of
+        mesh) and "polyscope" (registered as "beltrami mesh") ``corner_uv`` too, "arrays" neither.
+        See ``mesh.export``.
+        """
+        return export(self, target)
 
     # ---------------------------------------------------------------- topology
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats, Integers, as_function, read_only, read_only_matrix
+from beltrami._carded import Carded
 from beltrami.errors import DimensionError, MeshError, NegativeWeightError, check_name
 from beltrami.mesh.edge_matrix import symmetric_matrix
 from beltrami.mesh.mesh import Mesh
@@ -34,7 +35,7 @@ TUFTED = "tufted"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Laplacian:
+class Laplacian(Carded):
     r"""A stiffness :math:`L = D - W`, symmetric positive semi-definite with L1 = 0, and a mass B.
 
     ``laplacian`` makes it. The operator is :math:`B^{-1} L`; it is self-adjoint for

@@ -35,14 +35,14 @@ Weigher: TypeAlias = Callable[[Any], ArrayLike]
 def edge_weights(domain: Mesh | Topology, kind: str | Weigher) -> csr_array:
     r"""Return the matrix W of the weights of the edges (example 3).
 
-    ==================  =====================================================
+    ===================  ====================================================
     ``"combinatorial"``  :math:`w_{ij} = 1`; a Topology is enough
     ``"distance"``       :math:`w_{ij} = 1 / |x_j - x_i|^2`
     ``"cotangent"``      :math:`w_{ij} = (\cot\alpha_{ij} + \cot\beta_{ij}) / 2`
     ``"clamped"``        the cotangent weight, but at least 0.001
     ``"mean_value"``     :math:`w_{ij} = (\tan(\gamma_{ij} / 2) + \tan(\delta_{ij} / 2)) / |e_{ij}|`
     a callable           what it returns for the domain: (p,), in the order of ``edges``
-    ==================  =====================================================
+    ===================  ====================================================
 
     The angles α, β face the edge (E17); a boundary edge has one (E18). With the ½, :math:`\langle
     Lf, f\rangle` is the Dirichlet energy (E29). Where they add to more than π the weight is

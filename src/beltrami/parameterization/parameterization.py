@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, Integers, as_function, as_indices, read_only
+from beltrami._carded import Carded
 from beltrami.errors import DimensionError, FoldedMapError
 from beltrami.mesh.cut import Cut
 from beltrami.mesh.mesh import Mesh
@@ -18,7 +19,7 @@ from beltrami.parameterization.location import locate
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Parameterization:
+class Parameterization(Carded):
     r"""A map :math:`\psi` of a surface to the plane, linear on the faces (l. 661 and 663).
 
     ``parameterize`` and ``flatten`` make it.

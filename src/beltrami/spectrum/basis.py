@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats, as_function, read_only, read_only_matrix, whole
+from beltrami._carded import Carded
 from beltrami.errors import BeltramiError, DimensionError, NonFiniteError
 from beltrami.solvers.computation import Computation
 from beltrami.spectrum.basis_file import write_basis
@@ -18,7 +19,7 @@ from beltrami.spectrum.kernel import Response, evaluate
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class FourierBasis:
+class FourierBasis(Carded):
     r"""Eigenpairs :math:`L\varphi_i = \lambda_i B\varphi_i` with :math:`\Phi^T B\Phi = Id`.
 
     ``fourier_basis`` makes it. With the degree mass :math:`\varphi = D^{-1/2}u` for the

@@ -1,0 +1,50 @@
+import numpy as np
+import pytest
+
+from beltrami.io.registry import read_mesh
+
+
+def test_a_page_is_written(beltrami, sphere, tmp_path):
+    np.save(tmp_path / "warmth.npy", read_mesh(sphere).vertices[:, 1])
+    output = tmp_path / "p.html"
+    done = beltrami(
+        "page", sphere, "-o", output, "-k", 9, "--noise", 0, "--data", tmp_path / "warmth.npy",
+        "--weights", "cotangent", "--unit", "mm",
+    )  # fmt: skip
+    assert done.exit_code == 0, done.stderr
+    assert "MB" in done.stdout
+    assert "without the comparison" in done.stdout
+    text = output.read_text("utf-8")
+    assert "<title>a sphere é</title>" in text
+    assert '"name":"warmth"' in text
+    assert '"unit":"mm"' in text
+    assert text.count('"kind":') == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "text"),
+    [
+        (("--data-name", "x"), 2, "--data"),
+        (("--up", "w"), 1, "'x', 'y', 'z'"),
+        (("--weights", "cotan"), 1, "cotangent"),
+        (("--noise", "-1"), 1, "noise"),
+        (("-k", 0), 2, "Error"),
+    ],
+)
+def test_options_that_do_not_fit(beltrami, sphere, tmp_path, arguments, code, text):
+    done = beltrami("page", sphere, "-o", tmp_path / "p.html", *arguments)
+    assert done.exit_code == code
+    assert text in done.stderr
+    assert not (tmp_path / "p.html").exists()
+
+
+def test_the_output_is_checked_before_the_work(beltrami, sphere, tmp_path):
+    assert beltrami("page", sphere, "-o", tmp_path / "p.png").exit_code == 1
+    assert beltrami("page", sphere, "-o", tmp_path / "gone" / "p.html").exit_code == 1
+    assert beltrami("page", sphere, "-o", tmp_path).exit_code == 1
+
+
+def test_a_mesh_with_a_stray_vertex_names_the_remedy(beltrami, stray, tmp_path):
+    done = beltrami("page", stray, "-o", tmp_path / "p.html")
+    assert done.exit_code == 1
+    assert "repair" in done.stderr

@@ -1,0 +1,629 @@
+"""The page in a real Chromium: every control, the numbers behind the picture, and its pixels."""
+
+import base64
+import io
+import re
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from beltrami.diffusion.heat import heat
+from beltrami.display.page import page as write_page
+from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.shapes import blob, icosphere
+from beltrami.operators.laplacian import laplacian
+from beltrami.spectrum.fourier_basis import fourier_basis
+from browsers import FLAGS, WEBGL, chromium
+from page_reader import moebius
+
+pytestmark = pytest.mark.browser
+
+MODES = 24
+TWO = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]])
+PANELS = (
+    "modes", "heat", "wave", "terms", "filter", "exaggerate", "regularize", "plane", "compare"
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def browser():
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        opened = playwright.chromium.launch(executable_path=chromium(), args=[*FLAGS, *WEBGL])
+        yield opened
+        opened.close()
+
+
+@pytest.fixture(scope="module")
+def shape():
+    return blob(1500)
+
+
+@pytest.fixture(scope="module")
+def file(shape, tmp_path_factory):
+    path = tmp_path_factory.mktemp("page") / "the blob.html"
+    f = {"temperature": shape.vertices[:, 0] ** 2}
+    write_page(shape, path, f, modes=MODES, up="z", unit="mm", title="The blob")
+    return path
+
+
+@pytest.fixture(scope="module")
+def basis(shape):
+    return fourier_basis(laplacian(shape), MODES)
+
+
+class Visit:
+    """A page that is open, and what it asked for or complained about."""
+
+    def __init__(self, browser, file, **options):
+        settings = {"viewport": {"width": 1100, "height": 700}, "accept_downloads": True}
+        self.context = browser.new_context(**(settings | options))
+        self.tab = self.context.new_page()
+        self.complaints, self.asked = [], []
+        self.tab.on("console", lambda message: self.complaints.append(message.text))
+        self.tab.on("pageerror", lambda error: self.complaints.append(str(error)))
+        self.tab.on("request", lambda request: self.asked.append(request.url))
+        self.tab.goto(file.as_uri())
+        self.tab.wait_for_selector("#waiting", state="hidden")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *failure):
+        self.context.close()
+        if failure[0] is None:
+            assert self.complaints == []
+            assert [
+                url for url in self.asked if not url.startswith(("file:", "data:", "blob:"))
+            ] == []
+
+    def js(self, expression):
+        return self.tab.evaluate(expression)
+
+    def open(self, panel):
+        self.tab.click(f"#tab-{panel}")
+
+    def picture(self):
+        """Return the pixels of the picture, (h, w, 3)."""
+        text = self.js("beltrami.picture()")
+        with Image.open(io.BytesIO(base64.b64decode(text.split(",")[1]))) as image:
+            return np.asarray(image.convert("RGB"), dtype=int)
+
+    def values(self):
+        return self.in_order(np.array(self.js("Array.from(beltrami.values())")))
+
+    def positions(self):
+        return self.in_order(np.reshape(self.js("Array.from(beltrami.positions())"), (-1, 3)))
+
+    def in_order(self, values):
+        """Put values into the order of the mesh that the page was made of."""
+        sorted_values = np.empty_like(values)
+        sorted_values[self.js("Array.from(beltrami.app.data.numbers)")] = values
+        return sorted_values
+
+    def slide(self, control, value):
+        self.tab.locator(f"#{control}").fill(str(value))
+
+    def told(self):
+        """Return the readings of the panel."""
+        self.wait()
+        names = self.tab.locator("#panel dt").all_text_contents()
+        return dict(zip(names, self.tab.locator("#panel dd").all_text_contents(), strict=True))
+
+    def wait(self):
+        """Let all frames that were asked for be drawn."""
+        self.js("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+    def changes_by(self, act, least=0.002):
+        """Do something; the part of the picture that changed is at least this."""
+        before = self.picture()
+        act()
+        self.wait()
+        after = self.picture()
+        changed = (np.abs(after - before).max(axis=2) > 8).mean()
+        assert changed >= least
+        return changed
+
+
+@pytest.fixture
+def visit(browser, file):
+    with Visit(browser, file) as opened:
+        yield opened
+
+
+def number(text):
+    """Read a number as the page writes it."""
+    found = re.match(r"([-−]?[\d.]+)(?:·10([⁻⁰¹²³⁴-⁹]+))?", text)
+    exponent = (found[2] or "⁰").translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
+    return float(found[1].replace("−", "-")) * 10.0 ** int(exponent)
+
+
+def step_of(visit):
+    """Return the steps of the eigenvectors."""
+    return np.array(visit.js("beltrami.app.spectrum.steps"))
+
+
+def test_the_page_opens_alone(visit, shape):
+    assert visit.tab.title() == "The blob"
+    assert str(shape.n_vertices) in visit.tab.text_content("#facts")
+    drawn = np.abs(visit.picture() - 255).max(axis=2) > 20
+    assert 0.03 < drawn.mean() < 0.7
+    base = visit.positions()
+    assert np.abs(base - shape.vertices).max() < 0.006 * shape.edge_lengths.mean()
+
+
+def test_a_request_would_be_refused_and_seen(browser, file):
+    visit = Visit(browser, file)
+    for attempt in (
+        "fetch('http://127.0.0.1:9/').catch(() => 0)",
+        "document.body.append(Object.assign(new Image(), {src: 'http://127.0.0.1:9/a.png'}))",
+        "Object.assign(document.createElement('div'), {innerHTML: '<img src=x onerror=alert(1)>'})",
+    ):
+        before = len(visit.complaints)
+        visit.js(f"void ({attempt})")
+        visit.tab.wait_for_timeout(150)
+        assert len(visit.complaints) > before
+    assert all("Content Security Policy" in text or "file:" in text for text in visit.complaints)
+    visit.context.close()
+
+
+@pytest.mark.chapter("F3.7")
+def test_eigenfunctions(visit, shape, basis):
+    steps = step_of(visit)
+    visit.changes_by(lambda: visit.slide("mode", 11), 0.02)
+    away = np.abs(visit.values() - basis.eigenvectors[:, 11])
+    assert away.max() <= steps[11] * 0.51
+    assert number(visit.told()["λ"]) == pytest.approx(basis.eigenvalues[11], rel=0.01)
+    assert "1/mm²" in visit.told()["λ"]
+    assert int(visit.told()["Regions of one sign"]) <= 12
+    ink = (visit.picture().max(axis=2) < 45).sum()
+    visit.tab.uncheck("#nodal-line")
+    visit.wait()
+    assert (visit.picture().max(axis=2) < 45).sum() < 0.3 * ink
+    visit.slide("mode-lift", 1)
+    moved = np.linalg.norm(visit.positions() - shape.vertices, axis=1)
+    phi = np.abs(basis.eigenvectors[:, 11])
+    np.testing.assert_allclose(moved / moved.max(), phi / phi.max(), atol=0.02)
+
+
+def test_heat_is_that_of_the_library(visit, shape, basis):
+    visit.open("heat")
+    pair = laplacian(shape)
+    visit.tab.select_option("#heat-source", "2")
+    coefficients = np.abs(basis.forward(shape.vertices[:, 0] ** 2))
+    low, high = (float(visit.tab.get_attribute("#heat-time", end)) for end in ("min", "max"))
+    for part in (0.3, 0.7):
+        exponent = low + part * (high - low)
+        visit.slide("heat-time", exponent)
+        t = 10.0 ** float(visit.tab.input_value("#heat-time"))
+        f = shape.vertices[:, 0] ** 2
+        truth = heat(pair, f, t, "spectral", basis=basis, tolerance=1.0)
+        bound = (np.exp(-t * basis.eigenvalues) * coefficients) @ step_of(visit) / 2
+        assert np.abs(visit.values() - truth).max() <= bound + 1e-5 * np.abs(truth).max()
+        assert np.abs(truth).max() > 20 * bound  # the bound says something
+        assert number(visit.told()["Mean, which stays"]) == pytest.approx(
+            float(pair.mean(f)), rel=0.01
+        )
+    visit.changes_by(lambda: visit.tab.check("#heat-contours"), 0.0003)
+
+
+def test_heat_from_a_point_that_is_clicked(visit, shape, basis):
+    visit.open("heat")
+    box = visit.tab.locator("#view").bounding_box()
+    x, y = place_on_the_mesh(visit)
+    visit.tab.mouse.click(box["x"] + x, box["y"] + y)
+    visit.wait()
+    marked = visit.js("beltrami.app.numberOf(beltrami.app.marked)")
+    assert visit.told()["Its number"] == str(marked)
+    seen = projected(visit, shape.vertices)
+    distance = np.hypot(*(seen[:, :2] - [x, y]).T)
+    assert distance[marked] < distance.min() + 15  # nearest, or in front of the nearest
+    t = visit.js("beltrami.app.panel.state.time")
+    truth = (
+        heat(
+            laplacian(shape),
+            np.arange(shape.n_vertices) == marked,
+            t,
+            "spectral",
+            basis=basis,
+            tolerance=1.0,
+        )
+        / laplacian(shape).masses[marked]
+    )  # of one unit
+    assert np.abs(visit.values() - truth).max() < 0.03 * truth.max()
+    assert visit.values().argmax() == pytest.approx(truth.argmax())
+    before = visit.js("beltrami.app.panel.state.time")
+    visit.tab.click("#heat-play")
+    visit.tab.wait_for_timeout(700)
+    visit.tab.click("#heat-play")
+    assert visit.js("beltrami.app.panel.state.time") > before
+
+
+def place_on_the_mesh(visit):
+    """Return a pixel of the page, from the corner of the picture, where the mesh is seen."""
+    picture = visit.picture()
+    drawn = np.abs(picture - 255).max(axis=2) > 20
+    drawn[int(0.8 * len(drawn)) :] = False  # the colour bar
+    rows, columns = np.nonzero(drawn)
+    middle = len(rows) // 2
+    scale = visit.js("beltrami.app.canvas.clientWidth") / picture.shape[1]
+    return columns[middle] * scale, rows[middle] * scale
+
+
+def projected(visit, x):
+    """Return where points are on the picture, in pixels of the page, and their depth."""
+    matrix = np.array(visit.js("Array.from(beltrami.app.views[0].lens.matrix)")).reshape(4, 4).T
+    frame = visit.js("({unit: beltrami.app.data.frame.unit, at: beltrami.app.data.frame.centre})")
+    seen = np.c_[(x - frame["at"]) / frame["unit"], np.ones(len(x))] @ matrix.T
+    seen = seen[:, :3] / seen[:, 3:]
+    size = visit.js("[beltrami.app.canvas.clientWidth, beltrami.app.canvas.clientHeight]")
+    return np.c_[(1 + seen[:, 0]) / 2 * size[0], (1 - seen[:, 1]) / 2 * size[1], seen[:, 2]]
+
+
+@pytest.mark.chapter("F3.6")
+def test_waves(visit, shape, basis):
+    visit.open("wave")
+    visit.tab.select_option("#wave-source", "2")
+    f = shape.vertices[:, 0] ** 2
+    visit.slide("wave-time", 1.5)
+    t = float(visit.tab.input_value("#wave-time"))
+    truth = basis.filter(f, lambda x: np.cos(t * np.sqrt(np.maximum(x, 0))))
+    bound = np.abs(basis.forward(f)) @ step_of(visit) / 2
+    assert np.abs(visit.values() - truth).max() <= bound + 1e-5 * np.abs(truth).max()
+    box = visit.tab.locator("#view").bounding_box()
+    x, y = place_on_the_mesh(visit)
+    visit.tab.mouse.click(box["x"] + x, box["y"] + y)
+    visit.tab.wait_for_timeout(700)
+    assert visit.js("beltrami.app.panel.state.playing")
+    visit.tab.click("#wave-play")
+    assert visit.js("beltrami.app.panel.state.time") > 0
+    visit.changes_by(lambda: visit.slide("wave-lift", 1))
+    visit.tab.click("#wave-again")
+    assert visit.js("beltrami.app.panel.state.time") == 0
+    assert visit.values().max() > 0
+
+
+@pytest.mark.chapter("F3.9")
+def test_the_shape_of_the_first_terms(visit, shape, basis):
+    visit.open("terms")
+    pair = laplacian(shape)
+    centre = pair.mean(shape.vertices)
+    edge = shape.edge_lengths.mean()
+    for m in (4, 20):
+        visit.slide("terms", m)
+        truth = basis.truncate(shape.vertices, m)
+        away = np.linalg.norm(visit.positions() - truth, axis=1)
+        assert np.sqrt((away**2).mean()) < 0.05 * edge
+        error = np.sqrt(((shape.vertices - truth) ** 2).sum(axis=1) @ pair.masses)
+        told = visit.told()
+        assert number(told["Root mean square distance"]) == pytest.approx(
+            error / np.sqrt(shape.area), rel=0.01
+        )
+        size = np.sqrt(((shape.vertices - centre) ** 2).sum(axis=1) @ pair.masses)
+        assert number(told["Error beside the size"]) == pytest.approx(100 * error / size, rel=0.02)
+    visit.slide("terms", 0)
+    assert np.ptp(visit.positions(), axis=0).max() < 1e-6
+    visit.tab.click("#terms-play")
+    visit.tab.wait_for_timeout(900)
+    assert visit.js("beltrami.app.panel.state.m") > 0
+
+
+def test_a_filter_drawn_with_the_mouse_and_with_keys(visit, shape, basis):
+    visit.open("filter")
+    edge = shape.edge_lengths.mean()
+    assert np.abs(visit.positions() - shape.vertices).max() < 0.05 * edge  # all pass
+    visit.tab.locator("#filter-plot").scroll_into_view_if_needed()
+    box = visit.tab.locator("#filter-plot").bounding_box()
+    left, top = box["x"] + 60, box["y"] + 0.35 * box["height"]
+    visit.tab.mouse.move(left, top)
+    visit.tab.mouse.down()
+    visit.tab.mouse.move(left + 0.8 * (box["width"] - 60), top + 0.3 * box["height"], steps=8)
+    visit.tab.mouse.up()
+    drawn = np.array(visit.js("Array.from(beltrami.app.panel.state.values)"))
+    assert (np.diff(drawn[6:70]) < 0).all()  # a line that falls
+    h = drawn_response(drawn, basis)
+    rest = h[-1]
+    hat = basis.forward(shape.vertices - laplacian(shape).mean(shape.vertices))
+    centre = laplacian(shape).mean(shape.vertices)
+    truth = centre + rest * (shape.vertices - centre)
+    truth = truth + basis.eigenvectors @ ((h - rest)[:, None] * hat)
+    assert np.abs(visit.positions() - truth).max() < 0.15 * edge
+    visit.tab.select_option("#filter-source", "2")
+    f = shape.vertices[:, 0] ** 2
+    bound = np.abs(h * basis.forward(f)) @ step_of(visit) / 2
+    away = np.abs(visit.values() - basis.filter(f, h))
+    assert away.max() <= bound + 1e-5 * np.abs(f).max()
+    visit.tab.focus("#filter-plot")
+    said = visit.tab.get_attribute("#filter-plot", "aria-valuetext")
+    visit.tab.keyboard.press("ArrowLeft")
+    visit.tab.keyboard.press("ArrowUp")
+    visit.wait()
+    assert visit.tab.get_attribute("#filter-plot", "aria-valuetext") != said
+    raised = np.array(visit.js("Array.from(beltrami.app.panel.state.values)"))
+    assert (raised - drawn).max() == pytest.approx(0.1)
+    for preset in ("low", "high", "band", "boost", "all"):
+        visit.tab.click(f"#filter-{preset}")
+        visit.wait()
+        new = np.array(visit.js("Array.from(beltrami.app.panel.state.values)"))
+        assert not np.allclose(new, raised)
+        raised = new
+    visit.tab.select_option("#filter-source", "shape")
+    assert visit.js("beltrami.app.panel.state.onShape")
+    visit.open("heat")  # which has no shape to choose: the function is the one before
+    assert visit.tab.input_value("#heat-source") == "2"
+    assert np.isfinite(visit.values()).all()
+
+
+def drawn_response(values, basis):
+    places = basis.eigenvalues / basis.eigenvalues[-1] * (len(values) - 1)
+    return np.interp(places, np.arange(len(values)), values)
+
+
+def test_smoothing_and_exaggerating(visit, shape, basis):
+    visit.open("exaggerate")
+    edge = shape.edge_lengths.mean()
+    visit.slide("amount", 0)
+    assert np.abs(visit.positions() - shape.vertices).max() < 0.01 * edge
+    for amount in (-1, 1.5):
+        visit.slide("amount", amount)
+        t = visit.js("beltrami.app.panel.state.time")
+        h = 1 + amount * (1 - np.exp(-t * basis.eigenvalues))
+        truth = basis.filter(shape.vertices, h, rest=h[-1])
+        assert np.abs(visit.positions() - truth).max() < 0.15 * edge
+    old = visit.positions()
+    visit.slide("exaggerate-time", float(visit.tab.input_value("#exaggerate-time")) + 0.4)
+    assert np.abs(visit.positions() - old).max() > 0.05 * edge
+
+
+@pytest.mark.chapter("D20", "T17")
+def test_the_regulariser(visit, shape, basis):
+    visit.open("regularize")
+    visit.tab.select_option("#regularize-source", "2")
+    f = shape.vertices[:, 0] ** 2
+    pair = laplacian(shape)
+    visit.slide("weight", float(visit.tab.input_value("#weight")) + 0.2)
+    t = visit.js("beltrami.app.panel.state.weight")
+    g = basis.filter(f, 1 / (1 + t * basis.eigenvalues))
+    bound = np.abs(basis.forward(f)) @ step_of(visit) / 2
+    assert np.abs(visit.values() - g).max() <= bound + 1e-5 * np.abs(f).max()
+    told = visit.told()
+    assert number(told["‖f − g‖²"]) == pytest.approx(pair.norm(f - g) ** 2, rel=0.02)
+    assert number(told["⟨Lg, g⟩"]) == pytest.approx(pair.dirichlet_energy(g), rel=0.02)
+    visit.tab.check("#regularize-original")
+    assert np.abs(visit.values() - f).max() <= np.ptp(f) / 390
+
+
+def test_three_laplacians(visit, shape):
+    for index, kind in ((1, "combinatorial"), (2, "distance"), (0, "cotangent")):
+        visit.changes_by(lambda i=index: visit.tab.select_option("#laplacian", str(i)))
+        basis = fourier_basis(laplacian(shape, kind), MODES)
+        assert np.abs(visit.values() - basis.eigenvectors[:, 7]).max() <= step_of(visit)[7] * 0.51
+        assert ("mm" in visit.told()["λ"]) == (kind == "cotangent")
+    for panel in ("heat", "wave", "terms", "filter", "exaggerate", "regularize"):
+        visit.open(panel)
+        assert visit.tab.locator("#laplacian").count() == 1
+        visit.tab.select_option("#laplacian", "1")
+        visit.wait()
+        visit.tab.select_option("#laplacian", "0")
+        visit.wait()
+
+
+def test_the_map_to_the_plane(visit, shape):
+    visit.open("plane")
+    told = visit.told()
+    assert told["Bijection, decided exactly"] == "yes"
+    visit.wait()
+    half = visit.picture().shape[1] // 2
+    disk = np.abs(visit.picture()[:, half:] - 255).max(axis=2) > 20
+    rows, columns = np.nonzero(disk)
+    assert disk.sum() / (np.ptp(rows) * np.ptp(columns)) == pytest.approx(np.pi / 4, rel=0.05)
+    visit.changes_by(lambda: visit.slide("plane-count", 60), 0.02)
+    visit.changes_by(lambda: visit.tab.uncheck("#plane-checks"), 0.02)
+    visit.changes_by(lambda: visit.tab.select_option("#plane-shown", "area"), 0.02)
+    visit.changes_by(lambda: visit.tab.select_option("#plane-shown", "none"), 0.02)
+    visit.changes_by(lambda: visit.slide("plane-unfold", 1), 0.02)
+    picture = visit.picture()
+    unfolded = np.abs(picture[:, :half] - 255).max(axis=2) > 20
+    assert unfolded.sum() > 0.5 * disk.sum()
+
+
+def test_why_there_is_no_map(browser, tmp_path):
+    write_page(moebius(24), tmp_path / "m.html", modes=6, noise=0)
+    with Visit(browser, tmp_path / "m.html") as visit:
+        visit.open("plane")
+        assert "one side only" in visit.tab.text_content("#panel")
+        visit.open("compare")
+        assert "not asked for" in visit.tab.text_content("#panel")
+
+
+@pytest.mark.parametrize(
+    ("mesh", "modes"),
+    [
+        (Mesh([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]]), 5),
+        (icosphere(1).with_vertices(icosphere(1).vertices * 1e-9), 1),
+        (Mesh([[0, 0, 0], [9e8, 0, 0], [0, 9e8, 0], [0, 0, 9e9]], [[0, 1, 2], [0, 2, 3]]), 2),
+        (Mesh(np.r_[TWO, np.add(TWO, 5)], [[0, 1, 2], [3, 4, 5]]), 6),
+    ],
+    ids=["planar", "tiny", "huge", "apart"],
+)
+def test_odd_meshes(browser, tmp_path, mesh, modes):
+    write_page(mesh, tmp_path / "p.html", modes=modes)
+    with Visit(browser, tmp_path / "p.html") as visit:
+        for panel in PANELS:
+            visit.open(panel)
+            visit.wait()
+            assert "NaN" not in visit.tab.text_content("body main")
+            assert (np.abs(visit.picture() - 255).max(axis=2) > 20).any() or panel == "terms"
+            assert np.isfinite(visit.values()).all()
+            assert np.isfinite(visit.positions()).all()
+
+
+@pytest.mark.chapter("F3.5")
+def test_three_meshes_under_one_camera(visit):
+    visit.open("compare")
+    assert visit.tab.locator("#captions span").all_text_contents() == [
+        "original",
+        "with noise",
+        "denoised",
+    ]
+    told = visit.told()
+    assert number(told["Better by the factor"]) > 1.2
+    visit.wait()
+    before = visit.picture()
+    box = visit.tab.locator("#view").bounding_box()
+    visit.tab.mouse.move(box["x"] + 60, box["y"] + 300)
+    visit.tab.mouse.down()
+    visit.tab.mouse.move(box["x"] + 160, box["y"] + 330, steps=4)
+    visit.tab.mouse.up()
+    visit.wait()
+    after = visit.picture()
+    third = before.shape[1] // 3
+    for i in range(3):
+        part = slice(i * third, (i + 1) * third)
+        assert (np.abs(after[:, part] - before[:, part]).max(axis=2) > 8).mean() > 0.01
+
+
+def test_the_look(visit):
+    visit.changes_by(lambda: visit.tab.check("#wireframe"), 0.01)
+    visit.changes_by(lambda: visit.slide("light-azimuth", 90), 0.01)
+    visit.changes_by(lambda: visit.slide("light-elevation", -60), 0.01)
+    for name in ("gray", "sequential", "diverging"):
+        visit.tab.select_option("#colours", name)
+        visit.wait()
+        bar = visit.js("getComputedStyle(document.querySelector('.strip')).backgroundImage")
+        assert bar.startswith("linear-gradient")
+    visit.tab.select_option("#colours", "gray")
+    pixels = visit.picture()
+    drawn = pixels[pixels.max(axis=2) < 235]
+    assert np.ptp(drawn, axis=1).max() < 60  # but for the tint of the inside
+    low, middle, high = visit.tab.locator(".bar-numbers span").all_text_contents()
+    assert number(low) == -number(high)
+    assert middle == "0"
+
+
+def test_the_camera(visit):
+    start = visit.picture()
+    box = visit.tab.locator("#view").bounding_box()
+    visit.tab.mouse.move(box["x"] + 300, box["y"] + 200)
+    visit.changes_by(lambda: visit.tab.mouse.wheel(0, -300), 0.02)
+
+    def drag(shift):
+        if shift:
+            visit.tab.keyboard.down("Shift")
+        visit.tab.mouse.down()
+        visit.tab.mouse.move(box["x"] + 360, box["y"] + 260, steps=3)
+        visit.tab.mouse.up()
+        visit.tab.keyboard.up("Shift")
+
+    visit.changes_by(lambda: drag(False), 0.02)
+    visit.tab.mouse.move(box["x"] + 300, box["y"] + 200)
+    visit.changes_by(lambda: drag(True), 0.02)
+    visit.tab.click("#reset")
+    visit.wait()
+    np.testing.assert_array_equal(visit.picture(), start)
+
+
+def test_a_picture_is_saved(visit):
+    with visit.tab.expect_download() as started:
+        visit.tab.click("#screenshot")
+    assert started.value.suggested_filename == "The-blob-modes.png"
+    with Image.open(started.value.path()) as image:
+        saved = np.asarray(image.convert("RGB"), dtype=int)
+    np.testing.assert_array_equal(saved, visit.picture())
+    assert (saved[int(0.8 * len(saved)) :] < 200).any()  # the bar is on it
+
+
+def test_all_is_reached_by_keys(visit):
+    reached = set()
+    for _ in range(40):
+        visit.tab.keyboard.press("Tab")
+        reached.add(visit.js("document.activeElement.id"))
+    wanted = {
+        "tab-modes", "view", "laplacian", "mode", "nodal-line", "mode-lift", "colours", "wireframe",
+        "light-azimuth", "light-elevation", "reset", "screenshot", "theme",
+    }  # fmt: skip
+    assert wanted <= reached
+    visit.tab.focus("#tab-modes")
+    for panel in (
+        "heat",
+        "wave",
+        "terms",
+        "filter",
+        "exaggerate",
+        "regularize",
+        "plane",
+        "compare",
+    ):
+        visit.tab.keyboard.press("ArrowRight")
+        assert visit.js("document.activeElement.id") == f"tab-{panel}"
+        assert visit.tab.get_attribute(f"#tab-{panel}", "aria-selected") == "true"
+    visit.open("heat")
+    visit.tab.focus("#view")
+    for key in ("ArrowLeft", "ArrowUp", "Shift+ArrowRight", "+", "-", "0"):
+        before = visit.js("JSON.stringify(beltrami.app.camera)")
+        visit.tab.keyboard.press(key)
+        assert visit.js("JSON.stringify(beltrami.app.camera)") != before
+    before = visit.js("beltrami.app.marked")
+    visit.tab.keyboard.press("Enter")
+    assert visit.js("beltrami.app.marked") != before
+    unnamed = visit.js(
+        "[...document.querySelectorAll('input, select, button')].filter("
+        "e => !e.labels?.length && !e.textContent.trim()).length"
+    )
+    assert unnamed == 0
+
+
+@pytest.mark.parametrize("panel", ["modes", "filter", "plane", "compare"])
+def test_a_phone(browser, file, panel):
+    phone = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+    with Visit(browser, file, device_scale_factor=2, **phone) as visit:
+        visit.js(f"beltrami.open('{panel}')")
+        assert visit.js("document.documentElement.scrollWidth") <= 390
+        small = visit.js(
+            "[...document.querySelectorAll('#panel :is(button, select, input[type=range])')]"
+            ".filter(e => e.getBoundingClientRect().height < 28).map(e => e.id)"
+        )
+        assert small == []
+        if panel == "modes":
+            visit.open("heat")
+            marked = visit.js("beltrami.app.marked")
+            x, y = place_on_the_mesh(visit)
+            box = visit.tab.locator("#view").bounding_box()
+            visit.tab.touchscreen.tap(box["x"] + x, box["y"] + y)
+            visit.wait()
+            assert visit.js("beltrami.app.marked") != marked
+
+
+def test_dark_and_light(browser, file):
+    with Visit(browser, file, color_scheme="dark") as visit:
+        assert visit.picture()[2, 2].max() < 60
+        visit.tab.click("#theme")
+        visit.wait()
+        assert visit.picture()[2, 2].min() > 240
+        assert visit.js("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
+
+
+def test_frames_cost_little_javascript(browser, shape, tmp_path, record_property):
+    write_page(blob(6000), tmp_path / "p.html", modes=64, plane=False, noise=0)
+    with Visit(browser, tmp_path / "p.html") as visit:
+        visit.open("heat")
+        visit.wait()
+        counter = visit.context.new_cdp_session(visit.tab)
+        counter.send("Performance.enable", {"timeDomain": "threadTicks"})
+
+        def cpu():
+            told = counter.send("Performance.getMetrics")["metrics"]
+            return next(one["value"] for one in told if one["name"] == "TaskDuration")
+
+        frames = (
+            "(() => { const app = beltrami.app; for (let i = 0; i < 30; i++) {"
+            "app.panel.state.time *= 1.01; app.changed(); app.frame(performance.now()); } })()"
+        )
+        start = cpu()
+        visit.js(frames)
+        spent = 1000 * (cpu() - start) / 30
+        record_property("milliseconds of JavaScript per frame", round(spent, 2))
+        print(f"{spent:.2f} ms of JavaScript per frame")  # noqa: T201
+        assert 0 < spent < 60
