@@ -80,7 +80,7 @@ def hanging_together(labels: Integers, near: Neighbours) -> Integers:
     owner = np.empty(count, np.int64)
     owner[piece] = labels
     kept = np.zeros(count, np.bool_)
-    kept[_largest(owner, area)] = True
+    kept[largest_of_each(owner, area)] = True
     whole = np.empty(count, np.int64)
     whole[piece] = component_labels(near.pairs, m)
     for component in np.setdiff1d(whole, whole[kept]):
@@ -98,12 +98,12 @@ def hanging_together(labels: Integers, near: Neighbours) -> Integers:
             return_inverse=True,
         )
         common = np.bincount(turn.ravel(), border[open_ways], len(keys)).astype(np.float64)
-        longest = _largest(keys[:, 0], common)
+        longest = largest_of_each(keys[:, 0], common)
         cell[keys[longest, 0]] = keys[longest, 1]
     return cell[piece]
 
 
-def _largest(groups: Integers, values: Floats) -> Integers:
+def largest_of_each(groups: Integers, values: Floats) -> Integers:
     """Return the place of the largest value of each group, the first of equal ones."""
     order = np.lexsort([np.arange(len(groups)), -values, groups])
     first = np.ones(len(order), np.bool_)
@@ -151,7 +151,7 @@ def halved(labels: Integers, near: Neighbours, chosen: Booleans) -> Integers:
     for _ in range(2):
         distance = dijkstra(graph, directed=True, indices=first, min_only=True)
         second = first
-        first = np.flatnonzero(inside)[_largest(labels[inside], distance[inside])]
+        first = np.flatnonzero(inside)[largest_of_each(labels[inside], distance[inside])]
     _, _, source = dijkstra(
         graph,
         directed=True,
