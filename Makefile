@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 
-.PHONY: tour test test-heavy test-browser test-neighbours docs docs-outputs docs-map lint bench bench-large clean
+.PHONY: tour test test-heavy test-browser test-neighbours docs docs-outputs docs-map lint bench bench-large audit fuzz clean
 
 $(VENV)/.installed: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -34,11 +34,11 @@ $(VENV)/.browser: $(VENV)/.installed
 test-browser: $(VENV)/.browser  ## the pages in a real Chromium, and their modules in node
 	$(BIN)/python -m pytest -m browser
 
-test-neighbours:  ## meshes there and back through pyvista, open3d and polyscope: half a gigabyte
+test-neighbours:  ## cards in IPython, meshes there and back through pyvista, open3d and polyscope: half a gigabyte
 	$(PYTHON) -m venv .venv-neighbours
 	.venv-neighbours/bin/python -m pip install --quiet --upgrade "pip>=25.1"
 	.venv-neighbours/bin/python -m pip install --quiet --editable ".[all,view]" --group neighbours
-	.venv-neighbours/bin/python -m pytest -p no:dash tests/mesh/test_neighbours.py  # open3d brings dash
+	.venv-neighbours/bin/python -m pytest -p no:dash tests/mesh/test_neighbours.py tests/display/test_cards.py
 
 docs: $(VENV)/.installed  ## the site, in site/; a warning is an error
 	$(BIN)/python -m pip install --quiet --group docs
@@ -57,8 +57,25 @@ bench:  ## against the peers, in an environment of their own; writes BENCHMARKS.
 	-.venv-bench/bin/python -m pip install --quiet --group bench-cholmod  # Debian: libsuitesparse-dev
 	.venv-bench/bin/python -m benchmarks
 
+audit: $(VENV)/.installed  ## bill of materials (dist/sbom.json); fails on what is vulnerable or unknown
+	$(PYTHON) -m venv .venv-audit
+	.venv-audit/bin/python -m pip install --quiet --upgrade "pip>=25.1"
+	.venv-audit/bin/python -m pip install --quiet --group audit
+	mkdir -p dist
+	.venv-audit/bin/cyclonedx-py environment --pyproject pyproject.toml -o dist/sbom.json $(BIN)/python
+	$(BIN)/python -m pip freeze --exclude-editable > dist/installed.txt
+	.venv-audit/bin/pip-audit --strict --no-deps --disable-pip -r dist/installed.txt
+
+FORMATS ?= obj off ply stl btm csv npy npz
+SECONDS ?= 60
+fuzz: $(VENV)/.installed  ## readers, led by coverage, with bounds checked; finds stay in tests/fuzz/corpus
+	for format in $(FORMATS); do \
+	  PYTHONPATH=tests NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.fuzz-cache \
+	    $(BIN)/python -m fuzz $$format $(SECONDS) || exit 1; \
+	done
+
 bench-large:  ## solver and spectra to 2.1M vertices, after `make bench`; writes BENCHMARKS-LARGE.md
 	.venv-bench/bin/python -m benchmarks --large
 
 clean:
-	rm -rf $(VENV) .venv-bench .venv-neighbours tour site dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) .venv-bench .venv-neighbours .venv-audit .fuzz-cache tour site dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

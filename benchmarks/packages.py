@@ -23,6 +23,7 @@ DISTRIBUTIONS = (
     "scikit-sparse",
     "trimesh",
     "vtk",
+    "xatlas",
     "numpy",
     "scipy",
     "numba",

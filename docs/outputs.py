@@ -15,7 +15,12 @@ import tempfile
 from pathlib import Path
 
 DOCS = Path(__file__).parent
-PAGES = ("index", "start", *sorted(f"howto/{p.stem}" for p in (DOCS / "howto").glob("*.md")))
+PAGES = (
+    "index",
+    "start",
+    "viewer",
+    *sorted(f"howto/{p.stem}" for p in (DOCS / "howto").glob("*.md")),
+)
 BLOCK = re.compile(r"^```(python|text|console)\n(.*?)^```\n", re.DOTALL | re.MULTILINE)
 
 

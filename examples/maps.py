@@ -20,7 +20,7 @@ MAPS = {
     "circle, mean value": {"method": "tutte", "weights": "mean_value"},
     "square, cotangent": {"method": "tutte", "weights": "cotangent", "boundary": "square"},
     "triangle, mean value": {"method": "tutte", "weights": "mean_value", "boundary": 3},
-    "circle, reweighted": {},
+    "circle, relaxed": {},
     "free boundary": {"method": "free"},
 }
 

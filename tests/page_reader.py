@@ -18,7 +18,7 @@ def read_page(text):
     header = json.loads(re.search(r'id="header">(.*?)</script>', text, re.DOTALL)[1])
     found = re.search(r'id="data" data-length="(\d+)">(.*?)</script>', text, re.DOTALL)
     packed = base64.b85decode(found[2].encode().translate(_SAFE))[: int(found[1])]
-    data = np.frombuffer(zlib.decompress(packed), np.uint8)
+    data = np.frombuffer(zlib.decompress(packed, -15), np.uint8)
     sections, start = {}, 0
     for entry in header["sections"]:
         shape = entry["planes"], entry["columns"], entry["rows"]

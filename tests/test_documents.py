@@ -61,6 +61,7 @@ def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
         "docs/errata",
         "docs/format",
         "docs/chapter-map",
+        "docs/scaling",
     ],
 )
 def test_links_lead_somewhere(name):

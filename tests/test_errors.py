@@ -9,6 +9,7 @@ from beltrami.errors import (
     ApproximationError,
     BeltramiError,
     ConvergenceError,
+    DatasetError,
     FileFormatError,
     MeshError,
     MissingExtraError,
@@ -38,6 +39,7 @@ EXAMPLES = (
     RankLossError("no immersion", parameters=[[0.0, 1.5]], remedy="Move."),
     FileFormatError("a.ply", "too short", byte=0),
     MissingExtraError("trimesh", "io", "reading"),
+    DatasetError("not there", "a.obj"),
 )
 
 
@@ -87,7 +89,7 @@ def test_the_kinds_of_mesh_errors(name):
     others = (StepTooLongError, SingularMatrixError, ConvergenceError, UnknownNameError)
     others += (FileFormatError, MissingExtraError, BeltramiError, NotPositiveDefiniteError)
     others += (SurfaceError, RankLossError, NotDifferentiableError, TruncationError)
-    others += (ApproximationError,)
+    others += (ApproximationError, DatasetError)
     assert issubclass(cls, MeshError) != (cls in others)
 
 

@@ -10,6 +10,8 @@ from pathlib import Path
 from sphinx.util import logging
 from sphinx.util.display import status_iterator
 
+from freshness import is_fresh
+
 ROOT = Path(__file__).parents[2]
 _PICTURES = (".png", ".webp", ".gif")
 _HEAD = """# Gallery
@@ -32,14 +34,10 @@ def _usage(script: Path) -> str | None:
     return found[1] if found else None
 
 
-def _newest(*folders: Path) -> float:
-    return max(p.stat().st_mtime for folder in folders for p in folder.rglob("*.py"))
-
-
 def run(script: Path, folder: Path) -> None:
     """Run an example into a folder of its own, unless its pictures are newer than the code."""
     said = folder / "said.txt"
-    if said.exists() and said.stat().st_mtime > _newest(ROOT / "src", ROOT / "examples"):
+    if is_fresh(said):
         return
     folder.mkdir(parents=True, exist_ok=True)
     wanted = _usage(script)

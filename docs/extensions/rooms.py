@@ -72,7 +72,8 @@ def _page(room: str, title: str) -> str:
             kind = "autodata"
         lines += [f".. {kind}:: {name}"]
         if kind == "autoclass":
-            lines += ["   :members:", "   :inherited-members: Exception"]
+            lines += ["   :members:"]
+            lines += ["   :inherited-members:"] * (not issubclass(thing, Exception))
         lines += [""]
     return "\n".join(lines)
 

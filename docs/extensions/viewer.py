@@ -3,23 +3,18 @@
 from pathlib import Path
 
 import beltrami as bt
-
-N_VERTICES = 5000
+from freshness import is_fresh
 
 
 def write(app):
-    """Write the page into the static files, and what to say where it cannot be written."""
-    folder = Path(app.srcdir, "static")
-    place, note = folder / "viewer.html", Path(app.srcdir, "viewer-note.md")
-    if not hasattr(bt, "page"):
-        place.unlink(missing_ok=True)
-        note.write_text("This version has no live page.\n", encoding="utf-8")
-        return
-    if not place.exists():
-        bt.page(bt.shapes.blob(N_VERTICES), place, title="A creature", up="z")
+    """Write the page into the static files, and how large it is."""
+    place, note = Path(app.srcdir, "static", "viewer.html"), Path(app.srcdir, "viewer-note.md")
+    mesh = bt.shapes.blob(5000)
+    if not is_fresh(place):
+        bt.page(mesh, place, title="A creature", up="z")
     note.write_text(
-        f"It is one file of {place.stat().st_size / 1e6:.1f} MB, which needs no server: "
-        "[open it alone](static:viewer.html), or save it.\n",
+        f"The page below is one of {mesh.n_vertices} vertices and {place.stat().st_size / 1e6:.1f} "
+        "MB; [open it alone](static:viewer.html), or save it and send it to somebody.\n",
         encoding="utf-8",
     )
 

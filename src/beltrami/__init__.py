@@ -21,7 +21,11 @@ from typing import TYPE_CHECKING, Any
 from beltrami._carded import register_drawer
 
 if TYPE_CHECKING:
+    from beltrami import datasets as datasets
     from beltrami import errors as errors
+    from beltrami.batch.rows import write_rows as write_rows
+    from beltrami.batch.run_batch import Batch as Batch
+    from beltrami.batch.run_batch import run_batch as run_batch
     from beltrami.compression.compress import compress as compress
     from beltrami.compression.compress import vertex_order as vertex_order
     from beltrami.compression.decompress import decompress as decompress
@@ -54,6 +58,8 @@ if TYPE_CHECKING:
     from beltrami.io.function import read_function as read_function
     from beltrami.io.registry import read_mesh as read_mesh
     from beltrami.io.registry import write_mesh as write_mesh
+    from beltrami.learning.learning_operators import learning_operators as learning_operators
+    from beltrami.learning.operators import LearningOperators as LearningOperators
     from beltrami.mesh import shapes as shapes
     from beltrami.mesh.convert import as_mesh as as_mesh
     from beltrami.mesh.cut import Cut as Cut
@@ -80,6 +86,9 @@ if TYPE_CHECKING:
     from beltrami.operators.locality import is_local as is_local
     from beltrami.operators.neighbours import knn_graph as knn_graph
     from beltrami.operators.pair import Laplacian as Laplacian
+    from beltrami.operators.partition import RowBlock as RowBlock
+    from beltrami.operators.partition import gather_rows as gather_rows
+    from beltrami.operators.partition import partition_rows as partition_rows
     from beltrami.operators.point_cloud import PointCloud as PointCloud
     from beltrami.operators.projection import project as project
     from beltrami.operators.weights import edge_weights as edge_weights
@@ -139,6 +148,7 @@ register_drawer("beltrami.display.cards")  # no room on the way there may import
 
 _HOME = {
     "Atlas": "surfaces.atlas",
+    "Batch": "batch.run_batch",
     "Certificate": "parameterization.certificate",
     "Curvature": "operators.curvature",
     "Cut": "mesh.cut",
@@ -159,6 +169,7 @@ _HOME = {
     "InverseIteration": "solvers.inverse_iteration",
     "IterativeSolution": "solvers.iteration",
     "Laplacian": "operators.pair",
+    "LearningOperators": "learning.operators",
     "Mesh": "mesh.mesh",
     "NodalDomains": "spectrum.nodal_domains",
     "Page": "display.page",
@@ -167,6 +178,7 @@ _HOME = {
     "PointCloud": "operators.point_cloud",
     "Rectangle": "surfaces.domain",
     "Repair": "mesh.repair",
+    "RowBlock": "operators.partition",
     "Segmentation": "spectrum.segment",
     "Signature": "spectrum.signature",
     "SpotLight": "display.light",
@@ -203,6 +215,7 @@ _HOME = {
     "fourier_basis": "spectrum.fourier_basis",
     "functional_map": "spectrum.functional_map",
     "functional_map_from_points": "spectrum.correspondence",
+    "gather_rows": "operators.partition",
     "gaussian_bumps": "diffusion.bumps",
     "geodesic_distance": "geodesics.distance",
     "harmonic": "parameterization.harmonic",
@@ -216,6 +229,7 @@ _HOME = {
     "is_local": "operators.locality",
     "knn_graph": "operators.neighbours",
     "laplacian": "operators.laplacian",
+    "learning_operators": "learning.learning_operators",
     "load_basis": "spectrum.load_basis",
     "mexican_hat_frame": "spectrum.wavelets",
     "meyer_frame": "spectrum.wavelets",
@@ -223,6 +237,7 @@ _HOME = {
     "nodal_domains": "spectrum.nodal_domains",
     "page": "display.page",
     "parameterize": "parameterization.parameterize",
+    "partition_rows": "operators.partition",
     "plot_spectrum": "display.spectrum_plot",
     "poisson": "diffusion.poisson",
     "project": "operators.projection",
@@ -231,6 +246,7 @@ _HOME = {
     "regularize": "diffusion.regularize",
     "render": "display.render",
     "repair": "mesh.repair",
+    "run_batch": "batch.run_batch",
     "segment": "spectrum.segment",
     "segment_into_disks": "parameterization.disk_cells",
     "shape_dna": "spectrum.shape_dna",
@@ -243,9 +259,15 @@ _HOME = {
     "wave": "diffusion.wave",
     "wave_kernel_signature": "spectrum.wave_kernel",
     "write_mesh": "io.registry",
+    "write_rows": "batch.rows",
     "zoomout": "spectrum.zoomout",
 }
-_MODULES = {"errors": "errors", "kernels": "spectrum.kernels", "shapes": "mesh.shapes"}
+_MODULES = {
+    "datasets": "datasets",
+    "errors": "errors",
+    "kernels": "spectrum.kernels",
+    "shapes": "mesh.shapes",
+}
 
 __all__ = sorted([*_HOME, *_MODULES])
 

@@ -70,6 +70,11 @@ def rectangular(array: ArrayLike) -> NDArray[Any]:
     return given
 
 
+def as_floats(array: ArrayLike) -> Floats:
+    """Return an array of float64; DimensionError if it has ragged rows, or things not real."""
+    return rectangular(array).astype(np.float64, copy=False)
+
+
 def as_function(f: ArrayLike, n: int, what: str = "the function") -> Floats:
     """Check a function on n vertices: shape (n,) or (n, c), every value finite.
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "ApproximationError", "BeltramiError", "BoundaryCurveError", "ConvergenceError",
-    "DegenerateFaceError", "DimensionError", "EmptyMeshError", "FileFormatError",
+    "DatasetError", "DegenerateFaceError", "DimensionError", "EmptyMeshError", "FileFormatError",
     "FoldedMapError", "IncompatibleError", "MeshError", "MissingExtraError",
     "NegativeWeightError", "NonFiniteError", "NotADiskError", "NotClosedError",
     "NotDifferentiableError", "NotManifoldError", "NotOrientableError",
@@ -247,14 +247,8 @@ class UnknownNameError(BeltramiError, ValueError):
 class FileFormatError(BeltramiError, ValueError):
     """A file is not what its format promises.
 
-    Parameters
-    ----------
-    path
-        The file.
-    problem
-        What was found, and what was expected.
-    line, byte
-        Where: the line of a text file (from 1), the byte of a binary one (from 0).
+    ``problem`` says what was expected and what was found; ``line`` (of a text file, from 1) or
+    ``byte`` (of a binary one, from 0) says where.
     """
 
     def __init__(
@@ -267,6 +261,14 @@ class FileFormatError(BeltramiError, ValueError):
         place = f", line {line}" if line is not None else ""
         place += f", byte {byte}" if byte is not None else ""
         super().__init__(f"{self.path}{place}: {problem}")
+
+
+class DatasetError(BeltramiError, RuntimeError):
+    """The file of a data set cannot be had; ``path`` is where it is looked for."""
+
+    def __init__(self, problem: str, path: object) -> None:
+        self.path = str(path)
+        super().__init__(problem)
 
 
 class MissingExtraError(BeltramiError, ImportError):

@@ -41,6 +41,15 @@ def test_it_writes_what_parameterize_returns(beltrami, ring, tmp_path, words, op
     assert f"symmetric Dirichlet {found.distortion.symmetric_dirichlet:.4g}" in done.stdout
 
 
+def test_holes_may_stay_holes(beltrami, tmp_path):
+    path, out = tmp_path / "pipe.obj", tmp_path / "out.obj"
+    write_mesh(path, cylinder(12, 4))
+    done = beltrami("parameterize", path, "-o", out, "--fill-holes", "--no-cut")
+    assert done.exit_code == 0, done.stderr
+    assert "0 edges cut" in done.stdout
+    assert "certificate: a bijection" in done.stdout
+
+
 def test_json(beltrami, ring, tmp_path):
     done = beltrami("parameterize", ring, "-o", tmp_path / "out.obj", "--json")
     found = parameterize(read_mesh(ring))

@@ -73,6 +73,22 @@ def test_the_tables_are_not_empty_and_no_row_is_lost(page):
             assert hasattr(bt, name), name
 
 
+def test_what_is_said_of_libigl():
+    igl = pytest.importorskip("igl")
+    mesh = bt.shapes.icosphere(1)
+    V, F = mesh.to("arrays")
+    stray = np.vstack([V, [[5.0, 5.0, 5.0]]])
+    assert igl.massmatrix(stray, F, igl.MASSMATRIX_TYPE_VORONOI).shape == (42, 42)
+    with pytest.raises(bt.errors.UnreferencedVertexError) as caught:
+        bt.laplacian(bt.Mesh(stray, F))
+    assert caught.value.vertices.tolist() == [42]
+    V[3] = np.nan
+    assert np.isnan(igl.cotmatrix(V, F).data).any()
+    with pytest.raises(bt.errors.NonFiniteError) as caught:
+        bt.laplacian(bt.Mesh(V, F))
+    assert caught.value.vertices.tolist() == [3]
+
+
 def test_the_comparison_sees_another_sign_and_another_factor():
     L = bt.laplacian(bt.shapes.icosphere(1)).stiffness
     assert difference(L, -L) > 1

@@ -56,6 +56,7 @@ THINGS = {
     "Laplacian": lambda: bt.laplacian(bt.shapes.icosphere(2)),
     "FourierBasis": lambda: bt.fourier_basis(bt.laplacian(bt.shapes.icosphere(2)), 20),
     "Parameterization": lambda: bt.parameterize(bt.shapes.icosphere(2)),
+    "TextureAtlas": lambda: bt.atlas(bt.shapes.icosphere(2)),
     "Denoised": lambda: bt.denoise(noisy_blob()),
     "Diagnosis": lambda: bt.diagnose(bt.shapes.torus()),
 }
@@ -179,7 +180,9 @@ def test_colours_of_any_kind(color):
 
 
 def test_notebooks_choose_the_card():
-    formatters = pytest.importorskip("IPython.core.formatters", reason="IPython is not installed")
+    formatters = pytest.importorskip(
+        "IPython.core.formatters", reason="IPython is not installed: make test-neighbours"
+    )
     shown, _ = formatters.DisplayFormatter().format(bt.shapes.icosphere(1))
     assert re.search(r"<td[^>]*>42, 3 coordinates each", shown["text/html"])
     assert shown["image/png"][:4] == b"\x89PNG"

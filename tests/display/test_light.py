@@ -103,3 +103,11 @@ def test_what_is_no_light_is_refused(make, value, error):
 def test_an_unknown_shading_is_refused(square):
     with pytest.raises(UnknownNameError):
         light_intensity(square, SpotLight((0, 0, 1)), shading="phong")
+
+
+@pytest.mark.parametrize("light", [DirectionalLight((0, 1, 1)), SpotLight((0, 1, 1))])
+def test_points_of_other_shapes_are_refused(light):
+    assert light.towards([[5, 0, 0], [0, 0, 0]]).shape == (2, 3)
+    for points in (np.zeros((4, 2)), np.zeros(3), [[0, 0, 0], [1, 1]], [["x", "y", "z"]]):
+        with pytest.raises(DimensionError):
+            light.towards(points)

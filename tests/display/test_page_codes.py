@@ -1,3 +1,5 @@
+import zlib
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -88,7 +90,21 @@ def test_sections_follow_each_other():
     sections.add("a", np.array([[1, 2]]))
     sections.add("b", np.array([[300], [0]]))
     assert [entry["planes"] for entry in sections.entries] == [1, 2]
-    assert sections.joined() == bytes([2, 4, 88, 0, 2, 0])
+    assert zlib.decompress(sections.packed(), -15) == bytes([2, 4, 88, 0, 2, 0])
+
+
+def test_each_plane_is_packed_by_what_suits_it():
+    sections = Sections()
+    rng = np.random.default_rng(5)
+    noise = rng.integers(-3, 4, (20_000, 1))  # log2(7) = 2.8 bits each
+    sections.add("noise", noise)
+    sections.add("nothing", np.zeros((100_000, 1), np.int64))
+    sections.add("repeated", np.tile(rng.integers(-60, 60, 500), 100)[:, None])
+    packed = sections.packed()
+    assert len(packed) < 20_000 * 2.95 / 8 + 100 + 2500
+    whole = b"".join(sections.parts)
+    assert zlib.decompress(packed, -15) == whole
+    assert len(packed) < len(zlib.compress(whole, 9))
 
 
 def test_a_constant_has_no_steps():

@@ -116,6 +116,14 @@ class Visit:
         """Let all frames that were asked for be drawn."""
         self.js("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
+    def until(self, expression):
+        """Wait for something to become true."""
+        for _ in range(400):
+            if self.js(expression):
+                return
+            self.tab.wait_for_timeout(50)
+        pytest.fail(f"not so after 400 looks: {expression}")
+
     def changes_by(self, act, least=0.002):
         """Do something; the part of the picture that changed is at least this."""
         before = self.picture()
@@ -154,6 +162,13 @@ def test_the_page_opens_alone(visit, shape):
     assert np.abs(base - shape.vertices).max() < 0.006 * shape.edge_lengths.mean()
 
 
+def test_an_address_names_a_panel(visit):
+    for panel in ("wave", "plane"):
+        visit.js(f"void (location.hash = '{panel}')")
+        visit.wait()
+        assert visit.tab.get_attribute(f"#tab-{panel}", "aria-selected") == "true"
+
+
 def test_a_request_would_be_refused_and_seen(browser, file):
     visit = Visit(browser, file)
     for attempt in (
@@ -163,7 +178,10 @@ def test_a_request_would_be_refused_and_seen(browser, file):
     ):
         before = len(visit.complaints)
         visit.js(f"void ({attempt})")
-        visit.tab.wait_for_timeout(150)
+        for _ in range(100):
+            visit.tab.wait_for_timeout(50)
+            if len(visit.complaints) > before:
+                break
         assert len(visit.complaints) > before
     assert all("Content Security Policy" in text or "file:" in text for text in visit.complaints)
     visit.context.close()
@@ -236,9 +254,9 @@ def test_heat_from_a_point_that_is_clicked(visit, shape, basis):
     assert visit.values().argmax() == pytest.approx(truth.argmax())
     before = visit.js("beltrami.app.panel.state.time")
     visit.tab.click("#heat-play")
-    visit.tab.wait_for_timeout(700)
+    visit.until(f"beltrami.app.panel.state.time > {before}")
     visit.tab.click("#heat-play")
-    assert visit.js("beltrami.app.panel.state.time") > before
+    assert not visit.js("beltrami.app.panel.state.playing")
 
 
 def place_on_the_mesh(visit):
@@ -275,10 +293,9 @@ def test_waves(visit, shape, basis):
     box = visit.tab.locator("#view").bounding_box()
     x, y = place_on_the_mesh(visit)
     visit.tab.mouse.click(box["x"] + x, box["y"] + y)
-    visit.tab.wait_for_timeout(700)
+    visit.until("beltrami.app.panel.state.time > 0")
     assert visit.js("beltrami.app.panel.state.playing")
     visit.tab.click("#wave-play")
-    assert visit.js("beltrami.app.panel.state.time") > 0
     visit.changes_by(lambda: visit.slide("wave-lift", 1))
     visit.tab.click("#wave-again")
     assert visit.js("beltrami.app.panel.state.time") == 0
@@ -306,8 +323,7 @@ def test_the_shape_of_the_first_terms(visit, shape, basis):
     visit.slide("terms", 0)
     assert np.ptp(visit.positions(), axis=0).max() < 1e-6
     visit.tab.click("#terms-play")
-    visit.tab.wait_for_timeout(900)
-    assert visit.js("beltrami.app.panel.state.m") > 0
+    visit.until("beltrami.app.panel.state.m > 2")
 
 
 def test_a_filter_drawn_with_the_mouse_and_with_keys(visit, shape, basis):
@@ -453,11 +469,15 @@ def test_odd_meshes(browser, tmp_path, mesh, modes):
     with Visit(browser, tmp_path / "p.html") as visit:
         for panel in PANELS:
             visit.open(panel)
+            if panel == "modes":
+                visit.slide("mode", 0)  # of two components: zero on one of them
             visit.wait()
             assert "NaN" not in visit.tab.text_content("body main")
             assert (np.abs(visit.picture() - 255).max(axis=2) > 20).any() or panel == "terms"
             assert np.isfinite(visit.values()).all()
             assert np.isfinite(visit.positions()).all()
+            # where f is zero on a whole piece, that is no line
+            assert (visit.picture().max(axis=2) < 30).mean() < 0.02
 
 
 @pytest.mark.chapter("F3.5")
@@ -606,7 +626,8 @@ def test_dark_and_light(browser, file):
 
 
 def test_frames_cost_little_javascript(browser, shape, tmp_path, record_property):
-    write_page(blob(6000), tmp_path / "p.html", modes=64, plane=False, noise=0)
+    kinds = ("cotangent",)
+    write_page(blob(35_000), tmp_path / "p.html", laplacians=kinds, plane=False, noise=0)
     with Visit(browser, tmp_path / "p.html") as visit:
         visit.open("heat")
         visit.wait()
@@ -626,4 +647,4 @@ def test_frames_cost_little_javascript(browser, shape, tmp_path, record_property
         spent = 1000 * (cpu() - start) / 30
         record_property("milliseconds of JavaScript per frame", round(spent, 2))
         print(f"{spent:.2f} ms of JavaScript per frame")  # noqa: T201
-        assert 0 < spent < 60
+        assert 0 < spent < 30  # 8 are wanted; a busy machine may take more

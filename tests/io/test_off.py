@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from beltrami.errors import FileFormatError
+from beltrami.io import off
 from beltrami.io.registry import read_mesh, write_mesh
 from beltrami.mesh.mesh import Mesh
 
@@ -102,3 +103,13 @@ def test_round_trip(tmp_path, scattered, names):
     for name in names:
         assert again.vertex_data[name].dtype == data[name].dtype
         assert np.array_equal(again.vertex_data[name], data[name])
+
+
+def test_a_polygon_that_says_more_corners_than_there_are_bytes_writes_no_further(put):
+    head = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n"
+    for corners in ("0 1 2\n", "0 1 2 " * 50):
+        text = f"{head}1000000 {corners}"
+        with pytest.raises(FileFormatError, match="expected an integer"):
+            read_mesh(put("a.off", text))
+        data, faces = np.frombuffer(text.encode(), np.uint8), np.empty((1, 3), np.int64)
+        off._faces.py_func(data, len(head), 3, 1, faces, 0, 0)  # Python looks at each index

@@ -241,3 +241,14 @@ def test_a_number_that_its_type_cannot_hold(tmp_path):
         read_mesh(path)
     path.write_bytes(text.replace(b"1e300", b"2"))
     assert read_mesh(path).vertex_data["heat"].tolist() == [1, 2, 3]
+
+
+@pytest.mark.parametrize("form", ["binary_little_endian", "binary_big_endian"])
+def test_rows_without_lists_that_long_lists_before_leave_no_room_for(put, form):
+    points = ["float x", "float y", "float z", "list uchar double q"]
+    rows = [(0, 0, 0, [1.0] * 5), (1, 0, 0, []), (0, 1, 0, [2.0] * 5)]
+    content = ply(form, [("vertex", points, rows), ("other", ["double a"], [(1.0,)] * 4)])
+    for short in (1, 8, 31):
+        with pytest.raises(FileFormatError, match="32 bytes for the 4 rows") as caught:
+            read_mesh(put("a.ply", content[:-short]))
+        assert caught.value.byte == len(content) - short

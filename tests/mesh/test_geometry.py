@@ -221,3 +221,12 @@ def test_no_faces():
         assert geometry.corner_angles(x, none).shape == (0, 3)
         assert geometry.vertex_normals(x, none, "angle").shape == (2, 3)
         assert geometry.degenerate_faces(x, none).shape == (0,)
+
+
+def test_a_vertex_at_infinity_is_no_warning():
+    x = icosphere(1).vertices.copy()
+    x[0] = np.inf
+    mesh = Mesh(x, icosphere(1).faces)
+    far = (mesh.faces != 0).all(axis=1)
+    assert np.allclose(mesh.face_normals[far], icosphere(1).face_normals[far])
+    assert not np.isfinite(mesh.face_normals[~far]).all(axis=1).any()

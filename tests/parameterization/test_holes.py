@@ -9,6 +9,7 @@ from beltrami.mesh.shapes import cylinder, disk, grid, icosphere, torus
 from beltrami.parameterization.certificate import certify
 from beltrami.parameterization.holes import fill_holes
 from beltrami.parameterization.parameterize import parameterize
+from meshes_of_the_errata import cur
 from surfaces_to_part import side_by_side
 
 
@@ -102,3 +103,38 @@ def test_what_needs_no_cut_needs_no_leave():
 def test_bad_treatments_are_told():
     with pytest.raises(UnknownNameError, match="fill"):
         parameterize(FLAT, holes="fil")
+
+
+def test_the_outer_boundary_is_the_one_that_was_asked_for():
+    mesh = pierced(disk(5), 0)
+    psi = parameterize(mesh, holes="fill")
+    radii = [np.linalg.norm(psi.uv[loop], axis=1) for loop in psi.mesh.boundary_loops]
+    np.testing.assert_allclose(radii[0], 1, atol=1e-15)
+    assert radii[1].max() < 0.5
+    free = parameterize(mesh, "free", holes="fill")  # flat already
+    np.testing.assert_allclose(free.distortion.singular_values, 1, atol=1e-3)
+
+
+def test_relaxation_lets_the_holes_move():
+    """The fans are gone by then: they do not hold what they closed."""
+    mesh = SURFACES["sphere, three holes"]
+    solved = parameterize(mesh, "tutte", "clamped", holes="fill")
+    psi = parameterize(mesh, holes="fill")
+    assert psi.distortion.symmetric_dirichlet < 0.5 * solved.distortion.symmetric_dirichlet
+
+
+def test_without_holes_nothing_changes():
+    mesh = cur()
+    np.testing.assert_array_equal(parameterize(mesh, holes="fill").uv, parameterize(mesh).uv)
+
+
+def test_vertices_keep_their_numbers_and_their_functions():
+    """Also where a cut runs into a filling, so that a vertex loses its first copy with it."""
+    for mesh in SURFACES.values():
+        mesh = mesh.with_data(number=np.arange(mesh.n_vertices, dtype=float))
+        psi = parameterize(mesh, "tutte", holes="fill", strict=False)
+        n = np.arange(mesh.n_vertices)
+        np.testing.assert_array_equal(psi.vertex_map[: mesh.n_vertices], n)
+        np.testing.assert_array_equal(psi.mesh.vertex_data["number"], psi.vertex_map)
+        keys = mesh.edges @ [10**6, 1]
+        assert np.isin(psi.cut_edges @ [10**6, 1], keys).all()

@@ -104,19 +104,19 @@ def test_components_lie_apart_in_the_proportion_of_their_areas():
 
 
 def test_other_weights_are_tried_where_the_map_is_bad():
-    """A tube that is not long enough to fold: cotangents alone leave a hundred thousand."""
-    mesh = tube(12, 190)
-    kinds = ("clamped", "mean_value", "combinatorial")
-    maps = [parameterize(mesh, weights=kind, cut=False, strict=False) for kind in kinds]
-    alone = [psi.distortion.symmetric_dirichlet for psi in maps]
-    best = parameterize(mesh).distortion.symmetric_dirichlet
-    assert best == min(alone)
-    assert best < 0.01 * alone[0]
+    """A tube so long that cotangents alone fold, and other positive weights do not."""
+    mesh = tube(12, 220)
+    assert len(parameterize(mesh, weights="clamped", cut=False, strict=False).flipped) > 0
+    psi = parameterize(mesh, cut=False)
+    assert psi.is_bijective
+    assert "Schnyder" not in psi.method
+    alone = parameterize(mesh, weights="mean_value", cut=False).distortion.symmetric_dirichlet
+    assert psi.distortion.symmetric_dirichlet <= alone
 
 
 def test_a_seam_saves_what_rounding_folds():
     """One Tutte solve of a long tube folds: areas shrink beyond the range of doubles."""
-    mesh = tube(12, 400)
+    mesh = tube(6, 200)
     once = parameterize(mesh, "tutte", "clamped", strict=False)
     assert len(once.flipped) > 100
     assert not once.is_bijective
@@ -125,7 +125,7 @@ def test_a_seam_saves_what_rounding_folds():
     np.testing.assert_array_equal(caught.value.faces, once.flipped)
     psi = parameterize(mesh)
     assert psi.is_bijective
-    assert len(psi.cut_edges) > 300
+    assert len(psi.cut_edges) > 150
 
 
 def test_seams_lower_the_distortion():

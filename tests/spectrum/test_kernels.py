@@ -151,3 +151,10 @@ def test_functions_of_users_are_checked():
 def test_a_kernel_without_a_formula_has_no_values():
     with pytest.raises(NotImplementedError):
         Kernel()(1.0)
+
+
+def test_the_smooth_step_takes_lists_and_single_precision():
+    x = np.linspace(-0.5, 1.5, 41)
+    assert smooth_step(x.tolist()).tolist() == smooth_step(x).tolist()
+    short = x.astype(np.float32)
+    assert np.array_equal(smooth_step(short), smooth_step(short.astype(float)))

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from beltrami.cli.atlas import atlas
+from beltrami.cli.batch import batch
 from beltrami.cli.compress import compress
 from beltrami.cli.curvature import curvature
 from beltrami.cli.cut import cut
@@ -59,6 +60,7 @@ for verb in (
     atlas,
     flatten,
     render,
+    batch,
     page,
     tour,
 ):

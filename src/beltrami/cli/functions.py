@@ -31,7 +31,7 @@ def write_values(path: Path, mesh: Mesh, name: str, values: Floats) -> None:
     suffix = path.suffix.lower()
     if suffix == ".npy":
         with replacing(path) as file:
-            np.save(file, values)
+            np.save(file, values, allow_pickle=False)
     elif suffix in (".txt", ".csv"):
         with replacing(path) as file:
             np.savetxt(file, values, fmt="%.17g", delimiter="," if suffix == ".csv" else " ")

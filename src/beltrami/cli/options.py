@@ -7,7 +7,29 @@ from typing import Annotated
 
 import typer
 
-MeshFile = Annotated[Path, typer.Argument(metavar="MESH", help="A mesh: .obj .off .ply .stl ...")]
+from beltrami.cli.endings import ending_well
+
+_DATASET = "dataset:"
+
+
+@ending_well
+def _located(mesh: Path) -> Path:
+    """Return the file of ``dataset:NAME``, fetched if need be, or the file that is given."""
+    if not str(mesh).startswith(_DATASET):
+        return mesh
+    from beltrami.datasets.load import fetch
+
+    return fetch(str(mesh).removeprefix(_DATASET))
+
+
+MeshFile = Annotated[
+    Path,
+    typer.Argument(
+        metavar="MESH",
+        help="A mesh: .obj .off .ply .stl ..., or dataset:spot.",
+        callback=_located,
+    ),
+]
 MeshOutput = Annotated[
     Path, typer.Option("-o", "--output", metavar="FILE", help="Mesh file to write.")
 ]

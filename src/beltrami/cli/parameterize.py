@@ -23,7 +23,11 @@ def parameterize(
     mesh: MeshFile,
     output: TexturedOutput,
     method: Annotated[
-        str, typer.Option(help="auto; free: with a free boundary; tutte: one solve.")
+        str,
+        typer.Option(
+            help="auto; free: with a free boundary; tutte: one solve; least_squares_conformal; "
+            "spectral_conformal."
+        ),
     ] = "auto",
     boundary: Annotated[
         str, typer.Option(help="circle, square, or the number of sides of a regular polygon.")
@@ -44,11 +48,12 @@ def parameterize(
     seams: Annotated[
         int, typer.Option(min=0, help="Up to so many more cuts, each to lower the distortion.")
     ] = 0,
-    holes: Annotated[
-        str, typer.Option(help="cut: a seam to each; fill: closed while the map is made.")
-    ] = "cut",
     no_cut: Annotated[
         bool, typer.Option("--no-cut", help="Refuse what is not a disk, rather than cut it.")
+    ] = False,
+    fill_holes: Annotated[
+        bool,
+        typer.Option("--fill-holes", help="Let all boundaries but the longest be holes: no cut."),
     ] = False,
     allow_folds: Annotated[
         bool, typer.Option("--allow-folds", help="Write the map even if it is no bijection.")
@@ -71,9 +76,9 @@ def parameterize(
             curve,
             spacing=spacing,
             bulge=bulge,
-            holes=holes,
             seams=seams,
             cut=not no_cut,
+            holes="fill" if fill_holes else "cut",
             strict=not allow_folds,
         )
     write_mesh(output, found.textured)

@@ -80,18 +80,22 @@ def _play(stage: Stage) -> list[Chapter]:
     from beltrami.cli.chapters.averaging import averaging
     from beltrami.cli.chapters.chapter import Chapter
     from beltrami.cli.chapters.compression import compression
+    from beltrami.cli.chapters.denoising import denoising
     from beltrami.cli.chapters.files import files
     from beltrami.cli.chapters.geodesics import geodesics
     from beltrami.cli.chapters.grid import grid
     from beltrami.cli.chapters.heat import heat
+    from beltrami.cli.chapters.interactive import interactive
     from beltrami.cli.chapters.maps import maps
     from beltrami.cli.chapters.operators import operators
     from beltrami.cli.chapters.spectrum import spectrum
     from beltrami.cli.chapters.surface import surface
+    from beltrami.cli.chapters.waves import waves
 
     acts: tuple[Callable[[Stage], Chapter], ...] = (
-        surface, operators, averaging, grid, heat, spectrum, compression, maps, geodesics,
-        files,
+        interactive, surface, operators, averaging, grid, heat, denoising, waves, spectrum,
+        compression, maps,
+        geodesics, files,
     )  # fmt: skip
     played = []
     with waiting("touring") as progress:

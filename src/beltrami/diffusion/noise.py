@@ -95,7 +95,7 @@ def noise_level(
             white = R @ np.random.default_rng(0).standard_normal(n) / norms
     second = standard[2][inner]
     square = float(np.mean(second**2))
-    kurtosis = float(np.mean(second**4) / square**2) if square > 0 else 3.0
+    kurtosis = float(np.mean((second / np.sqrt(square)) ** 4)) if square > 0 else 3.0
     excess = _correlation(adjacency, standard[2]) - _correlation(adjacency, white)
     relative = levels[2] / edge_length if edge_length else np.nan
     return NoiseLevel(

@@ -82,7 +82,7 @@ def smooth(
     laplacian.require_non_negative("averaging")
     held = np.zeros(laplacian.n, np.bool_)
     held[as_indices(hold, laplacian.n, "held vertices")] = True
-    if steps < 0 or steps != int(steps):
+    if not 0 <= steps < np.inf or steps != int(steps):
         raise BeltramiError(f"steps must be a whole number >= 0, not {steps}")
     if not step >= 0:
         raise BeltramiError(f"step must be >= 0, not {step}")

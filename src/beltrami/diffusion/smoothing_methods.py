@@ -194,7 +194,7 @@ def _needed(time: float | None) -> float:
 
 
 def _whole(steps: int, least: int = 0) -> int:
-    if steps < least or steps != int(steps):
+    if not (least <= steps < np.inf) or steps != int(steps):
         raise BeltramiError(f"steps must be a whole number >= {least}, not {steps}")
     return int(steps)
 

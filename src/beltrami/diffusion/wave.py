@@ -26,6 +26,7 @@ from beltrami.operators.pair import Laplacian
 from beltrami.spectrum.basis import FourierBasis
 
 WAVE_METHODS = ("leapfrog", "implicit", "spectral")
+_UNCOUNTABLE = 2.0**53
 _MOST_STEPS = 10_000_000  # of leapfrog, if the caller does not insist
 
 
@@ -197,6 +198,8 @@ def _checked_step(
     if step is not None and not (math.isfinite(step) and step > 0):
         raise BeltramiError(f"step must be positive and finite, not {step}")
     last = float(times.max(initial=0.0)) or 1.0
+    if step is not None and last / step > _UNCOUNTABLE:
+        raise BeltramiError(f"a step of {step:g} is too short for a time of {last:g}")
     if method == "implicit":
         q = part.stiffness.shape[0]
         ratio = part.stiffness.diagonal() / (part.mass @ np.ones(q))

@@ -22,6 +22,7 @@ from beltrami.mesh.diagnose import Diagnosis
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.pair import Laplacian
 from beltrami.parameterization.parameterization import Parameterization
+from beltrami.parameterization.texture_atlas import TextureAtlas
 from beltrami.spectrum.basis import FourierBasis
 
 Rows: TypeAlias = list[tuple[str, str]]
@@ -99,6 +100,11 @@ def _(psi: Parameterization) -> Image | None:
     grown = np.bincount(corners, np.repeat(np.log(areas), 3), psi.flat.n_vertices)
     f = grown / np.maximum(count, 1)
     return thumbnail(psi.flat, f, limits=(-_FAR_APART, _FAR_APART), wireframe=True)
+
+
+@picture.register
+def _(charts: TextureAtlas) -> Image | None:
+    return picture(charts.map)
 
 
 @picture.register
@@ -203,6 +209,12 @@ def _(psi: Parameterization) -> Rows:
         ("ratio of lengths", f"{measured.mean_conformal:.4g} in the mean; 1 keeps angles"),
         ("ratio of areas", f"{measured.mean_area:.4g} in the mean; 1 keeps areas"),
     ]
+
+
+@rows.register
+def _(charts: TextureAtlas) -> Rows:
+    filled = f"{charts.fill:.0%} of the square, {charts.size} texels a side"
+    return [("charts", f"{charts.count}, in {filled}"), *rows(charts.map)]
 
 
 @rows.register

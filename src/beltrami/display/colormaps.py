@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, as_function, read_only
+from beltrami._arrays import Floats, as_floats, as_function, read_only
 from beltrami.display.srgb import from_oklab
 from beltrami.errors import MeshError, check_name
 
@@ -63,7 +63,7 @@ def color_table(colormap: str | ArrayLike) -> Floats:
     """
     if isinstance(colormap, str):
         return _named_table(check_name("colormap", colormap, COLORMAPS))
-    given = np.asarray(colormap, dtype=np.float64)
+    given = as_floats(colormap)
     table = as_function(given, len(given) if given.ndim else 0, "the colour table")
     if (
         table.ndim != 2

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Booleans, Floats, Integers
+from beltrami._arrays import Booleans, Floats, Integers, as_floats
 from beltrami.display.camera import FIELD_OF_VIEW, Camera
 from beltrami.display.vectors import as_vector, unit_vector
 from beltrami.errors import EmptyMeshError, MeshError, check_name, shown
@@ -73,7 +74,7 @@ def fit_camera(
     center, radius = _ball([_drawn_points(mesh) for mesh in meshes])
     frame = np.array(_FRAMES[check_name("axis", up, tuple(_FRAMES))], dtype=np.float64)
     direction = _direction(view, frame, planar)
-    if not (np.isfinite(zoom) and zoom > 0):
+    if not (math.isfinite(zoom) and zoom > 0):
         raise MeshError(f"a zoom of {zoom} is not a positive number")
     slope = np.tan(np.radians(field_of_view) / 2)
     distance = radius / np.sin(np.arctan(FILL * slope))
@@ -87,7 +88,7 @@ def _direction(view: ArrayLike | None, frame: Floats, planar: bool) -> Floats:
     """Return the unit vector from the mesh to the eye."""
     if view is None:
         view = (0.0, 0.0) if planar else (30.0, 20.0)
-    given = np.asarray(view, dtype=np.float64)
+    given = as_floats(view)
     if given.shape not in ((2,), (3,)) or not np.isfinite(given).all():
         raise MeshError(
             f"the view {shown(view)} is no direction",

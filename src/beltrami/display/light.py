@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats
 from beltrami.display.camera import Camera
-from beltrami.display.vectors import as_vector
+from beltrami.display.vectors import as_points, as_vector
 from beltrami.errors import MeshError, check_name
 from beltrami.mesh.geometry import in_space, unit
 from beltrami.mesh.mesh import Mesh
@@ -38,9 +38,10 @@ class DirectionalLight:
             raise MeshError("the direction of the light is zero, which is no direction")
         object.__setattr__(self, "direction", vector)
 
-    def towards(self, points: Floats) -> Floats:
-        """(n, 3) unit vectors from the points to the light."""
-        return np.broadcast_to(unit(self.direction[None]), points.shape)
+    def towards(self, points: ArrayLike) -> Floats:
+        """(n, 3) unit vectors from the points (n, 3) to the light."""
+        shape = as_points(points, "the points").shape
+        return np.repeat(unit(self.direction[None]), shape[0], axis=0)
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -60,9 +61,9 @@ class SpotLight:
     def __init__(self, position: ArrayLike) -> None:
         object.__setattr__(self, "position", as_vector(position, "the position of the light"))
 
-    def towards(self, points: Floats) -> Floats:
-        """(n, 3) unit vectors from the points to the light; zero at the light itself."""
-        return unit(self.position - points)
+    def towards(self, points: ArrayLike) -> Floats:
+        """(n, 3) unit vectors from the points (n, 3) to the light; zero at the light itself."""
+        return unit(self.position - as_points(points, "the points"))
 
 
 Light: TypeAlias = DirectionalLight | SpotLight

@@ -70,7 +70,9 @@ def page(
     heat and waves from a point that is clicked, the shape of the first M terms, filters drawn by
     hand, smoothing and exaggerating, the quadratic regulariser; besides a map to the plane with
     its distortion, and the mesh beside a noisy and a denoised copy. Nothing is loaded from
-    anywhere: the policy of the page forbids it.
+    anywhere: the policy of the page forbids it. The address ``page.html#heat`` opens that panel; in
+    the console of the browser ``beltrami.values()`` and ``beltrami.positions()`` are the numbers
+    behind the picture, in the order ``beltrami.app.data.numbers`` of the vertices.
 
     Chapter items: F3.1, F3.7.
 
@@ -112,11 +114,10 @@ def page(
 
     Notes
     -----
-    Numbers are rounded: eigenvectors to 1/200 of their largest value or finer, such that the shape
-    is off by about 2 % of the mean edge, functions to 1/400 of
-    their range, positions to 0.5 % of
-    the mean edge. Size: 80 bytes a vertex for 64 modes of three Laplacians. Cost: that of
-    the eigenpairs, one ``parameterize`` and one ``denoise``, which takes longest.
+    Numbers are rounded: eigenvectors to 1/254 of their largest value or finer, such that the shape
+    is off by about 1.5 % of the mean edge, functions to 1/508 of their range, positions to 0.5 %
+    of the mean edge. Size: about 80 bytes a vertex for 64 modes of three Laplacians. Cost: that
+    of the eigenpairs, one ``parameterize`` and one ``denoise``, which takes longest.
 
     Examples
     --------
@@ -157,7 +158,7 @@ def page(
     contents = page_contents(mesh, functions, wanted, tell)
     title = title or file.stem
     header = {"title": title, **contents.header}
-    text = page_html(title, header, contents.sections.joined()).encode()
+    text = page_html(title, header, contents.sections.packed()).encode()
     with replacing(file) as out:
         out.write(text)
     tell()

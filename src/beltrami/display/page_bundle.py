@@ -6,7 +6,6 @@ import base64
 import hashlib
 import json
 import re
-import zlib
 from collections.abc import Mapping
 from html import escape
 from importlib.resources import files
@@ -97,15 +96,15 @@ def _wrapped(name: str, text: str, exports: list[str]) -> str:
     return f"const ${name[:-3]} = (() => {{\n{body}return {{ {', '.join(exports)} }};\n}})();\n"
 
 
-def page_html(title: str, header: Mapping[str, Any], data: bytes) -> str:
+def page_html(title: str, header: Mapping[str, Any], packed: bytes) -> str:
     """Return the page: no request leaves it, and only its own script and style run.
 
     Parameters
     ----------
     header
         What goes as JSON; see ``page_contents``.
-    data
-        What is deflated, and then written in base 85.
+    packed
+        What is large, deflated; it is written in base 85.
     """
     texts = web_files()
     script = bundle({name: text for name, text in texts.items() if name.endswith(".js")})
@@ -114,8 +113,6 @@ def page_html(title: str, header: Mapping[str, Any], data: bytes) -> str:
         f"default-src 'none'; script-src '{_hash(script)}'; style-src '{_hash(style)}'; "
         "img-src data:; base-uri 'none'; form-action 'none'"
     )
-    packer = zlib.compressobj(9, zlib.DEFLATED, zlib.MAX_WBITS, 9, zlib.Z_FILTERED)
-    packed = packer.compress(data) + packer.flush()
     return Template(texts["page.html"]).substitute(
         title=escape(title),
         policy=policy,

@@ -3,10 +3,13 @@
 An integer at a vertex is guessed from those at the vertices before it: the mean, rounded down, of
 a + b - c over the faces (a, b, v) whose neighbour across the side (a, b) has a third vertex c
 before v too (Touma and Gotsman 1998). Functions that vary slowly leave 2 bits for each value.
+Huffman's code alone packs those better, and a hundred times faster, than a search for repetitions;
+planes of bytes that are nearly all 0 want runs.
 """
 
 from __future__ import annotations
 
+import zlib
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -101,9 +104,23 @@ class Sections:
         self.entries.append({"name": name, "rows": rows, "columns": columns, "planes": planes})
         self.parts.append(data)
 
-    def joined(self) -> bytes:
-        """Return all bytes."""
-        return b"".join(self.parts)
+    def packed(self) -> bytes:
+        """Return all bytes, deflated (RFC 1951, without a header)."""
+        planes = [
+            part[i * size : (i + 1) * size]
+            for entry, part in zip(self.entries, self.parts, strict=True)
+            for i, size in enumerate([entry["rows"] * entry["columns"]] * entry["planes"])
+        ]
+        return b"".join(map(_deflated, planes)) + zlib.compressobj(wbits=-15).flush()
+
+
+def _deflated(data: bytes) -> bytes:
+    """Deflate with the strategy that packs best; such pieces may follow each other."""
+    tries = []
+    for strategy in (zlib.Z_HUFFMAN_ONLY, zlib.Z_RLE, zlib.Z_FILTERED):
+        packer = zlib.compressobj(6, zlib.DEFLATED, -zlib.MAX_WBITS, 9, strategy)
+        tries.append(packer.compress(data) + packer.flush(zlib.Z_SYNC_FLUSH))
+    return min(tries, key=len)
 
 
 def face_residuals(faces: Integers) -> Integers:

@@ -22,9 +22,9 @@ from beltrami.parameterization.parameterize import parameterize
 from beltrami.spectrum.basis import FourierBasis
 from beltrami.spectrum.fourier_basis import fourier_basis
 
-COLOURS = 100  # levels on each side of 0, at least, of an eigenvector: what colours show
+COLOURS = 127  # levels on each side of 0, at least, of an eigenvector: what colours show
 _FINEST = 8191  # levels at most, so that residuals fit into two bytes
-_ERROR = 0.02  # of the mean edge: what rounding one eigenvector may move the shape by
+_ERROR = 0.01  # of the mean edge: what rounding one eigenvector may move the shape by
 _PLACE = 0.005  # of the mean edge: the steps of positions
 _FLAT = 1 / 8192  # of the width of the map: the steps of the coordinates in the plane
 _SEED = 1
@@ -117,7 +117,7 @@ def _add_functions(
     functions: Mapping[str, Floats],
     order: Order,
 ) -> None:
-    """Append functions on the vertices, on 201 levels each."""
+    """Append functions on the vertices, on 255 levels each."""
     values = np.stack(list(functions.values()), axis=1)[order.vertices]
     low, high = values.min(axis=0), values.max(axis=0)
     steps = (high / 2 - low / 2) / COLOURS

@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Floats, as_floats
 from beltrami.display.camera import Camera
 from beltrami.display.colormaps import is_signed
 from beltrami.display.framing import fit_camera
@@ -160,7 +160,7 @@ def _levels(level_set: Levels, f: Floats) -> tuple[float, ...]:
     if isinstance(level_set, str):
         check_name("level set", level_set, ("auto",))
         return (0.0,) if is_signed(f) else ()
-    levels = np.atleast_1d(np.asarray(level_set, dtype=np.float64))
+    levels = np.atleast_1d(as_floats(level_set))
     if levels.ndim != 1 or not np.isfinite(levels).all():
         raise MeshError(f"the level sets {shown(level_set)} are not finite numbers")
     return tuple(levels.tolist())

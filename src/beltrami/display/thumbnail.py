@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from beltrami._arrays import Integers
 from beltrami.display.camera import Camera
-from beltrami.display.framing import fit_camera
+from beltrami.display.framing import fit_camera, named_vertices
 from beltrami.display.render import render
 from beltrami.display.srgb import Image
 from beltrami.mesh.geometry import in_space
@@ -106,7 +106,7 @@ def _close_camera(mesh: Mesh, size: tuple[int, int]) -> Camera:
     """Place the camera as usual, with a zoom that fills the picture with what is seen."""
     camera = fit_camera(mesh)
     x, _ = in_space(mesh.vertices, mesh.faces)
-    seen = camera.project(x[np.unique(mesh.faces)], size)[:, :2]
+    seen = camera.project(x[named_vertices(mesh.faces, len(x))], size)[:, :2]
     reach = np.abs(seen / (np.array(size) / 2) - 1).max()
     return fit_camera(mesh, zoom=0.97 / max(float(reach), 0.05))
 

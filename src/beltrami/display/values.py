@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, as_function
+from beltrami._arrays import Floats, as_function, rectangular
 from beltrami.display.colormaps import color_table, is_signed, symmetric_limits
 from beltrami.display.framing import named_vertices
 from beltrami.errors import DimensionError, MeshError, shown
@@ -26,7 +26,7 @@ def as_values(mesh: Mesh, f: ArrayLike) -> Floats:
     MeshError
         If a colour is outside [0, 1].
     """
-    given = np.asarray(f)
+    given = rectangular(f)
     values = as_function(given, mesh.n_vertices).reshape(mesh.n_vertices, -1)
     if values.shape[1] not in (1, 3):
         raise DimensionError(

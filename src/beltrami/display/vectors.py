@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, as_function, frozen
+from beltrami._arrays import Floats, as_floats, as_function, frozen
 from beltrami.errors import DimensionError
 
 
@@ -24,10 +24,26 @@ def as_vector(vector: ArrayLike, what: str) -> Floats:
     >>> as_vector([1, 2, 3], "the target").tolist()
     [1.0, 2.0, 3.0]
     """
-    values = np.asarray(vector, dtype=np.float64)
+    values = as_floats(vector)
     if values.shape != (3,):
         raise DimensionError(f"{what} has the shape {values.shape} where (3,) is needed")
     return frozen(as_function(values, 3, what), np.float64)
+
+
+def as_points(points: ArrayLike, what: str) -> Floats:
+    """Check points of space, (n, 3).
+
+    Raises
+    ------
+    DimensionError
+        If they have not the shape (n, 3).
+    NonFiniteError
+        If a coordinate is NaN or infinite.
+    """
+    values = as_floats(points)
+    if values.ndim != 2 or values.shape[1] != 3:
+        raise DimensionError(f"{what} have the shape {values.shape} where (n, 3) is needed")
+    return as_function(values, len(values), what)
 
 
 def unit_vector(vector: Floats) -> Floats:

@@ -213,7 +213,7 @@ def _faces(b: Any, p: int, n: int, m: int, faces: Any, polygons: int, filled: in
                 return p, polygons, filled, _NO_VERTEX
             if c == 0:
                 first = i
-            elif c > 1:
+            elif c > 1 and filled < faces.shape[0]:  # no room: more corners than bytes, an error
                 faces[filled, 0] = first
                 faces[filled, 1] = second
                 faces[filled, 2] = i

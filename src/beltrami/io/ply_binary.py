@@ -34,6 +34,7 @@ def read_binary(
     which = names.index(wanted) if wanted in names else -1
     if not any(p.length for p in element.properties):
         table = _table(element.properties, [], order)
+        _require_bytes(source, start, table.itemsize * element.rows, element)
         rows = np.frombuffer(source.data, table, element.rows, start)
         scalars = {p.name: rows[f"p{i}"] for i, p in enumerate(element.properties)}
         return scalars, None, start + rows.nbytes
@@ -49,6 +50,15 @@ def read_binary(
             found = values.astype(np.int64), values.shape[1]
         return scalars, found, start + rows.nbytes
     return _read_irregular(source, start, element, order, which)
+
+
+def _require_bytes(source: Source, start: int, size: int, element: Element) -> None:
+    if size > len(source.data) - start:
+        raise source.at_byte(
+            len(source.data),
+            f"expected {size} bytes for the {element.rows} rows of the element {element.name!r}, "
+            f"found the end of the file after {len(source.data) - start}",
+        )
 
 
 def _plain_triangles(

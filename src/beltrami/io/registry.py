@@ -11,7 +11,7 @@ from typing import IO, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, require_finite
+from beltrami._arrays import Floats, as_floats, require_finite
 from beltrami.errors import (
     DimensionError,
     EmptyMeshError,
@@ -150,7 +150,7 @@ def write_mesh(
     suffix = suffix_of(path, None, (*WRITERS, *extras.WRITERS))
     vertices = _writable(mesh, suffix)
     material = ""
-    turns = None if uv is None else np.asarray(uv, dtype=np.float64)
+    turns = None if uv is None else as_floats(uv)
     if turns is not None or texture is not None:
         check_name("format for texture coordinates", suffix, TEXTURED)
     if texture is not None:

@@ -87,9 +87,10 @@ def face_areas(vertices: Floats, faces: Integers) -> Floats:
 
 
 def unit(vectors: Floats) -> Floats:
-    """Divide each row by its length; a zero row stays zero."""
+    """Divide each row by its length; a zero row stays zero, and what is not finite so."""
     scale = np.abs(vectors).max(axis=1, initial=0.0)
-    scaled = vectors / np.where(scale > 0, scale, 1)[:, None]  # no underflow in the squares
+    with np.errstate(invalid="ignore"):
+        scaled = vectors / np.where(scale > 0, scale, 1)[:, None]  # no underflow in the squares
     length = np.sqrt(np.einsum("fc,fc->f", scaled, scaled))
     return scaled / np.where(length > 0, length, 1)[:, None]
 

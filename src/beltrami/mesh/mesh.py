@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from beltrami._arrays import Floats, Integers, frozen, read_only
+from beltrami._arrays import Floats, Integers, frozen, read_only, rectangular
 from beltrami._carded import Carded
 from beltrami._frozen import Frozen
 from beltrami.errors import (
@@ -286,7 +286,7 @@ def _checked_data(data: Mapping[str, ArrayLike], n: int) -> Mapping[str, NDArray
     """Freeze the functions on the vertices; each has n rows and one or two axes."""
     if not isinstance(data, Mapping):
         raise MeshError(f"vertex_data maps names to arrays, and is not {shown(data)}")
-    arrays = {name: frozen(values, np.asarray(values).dtype) for name, values in data.items()}
+    arrays = {name: frozen(values, rectangular(values).dtype) for name, values in data.items()}
     for name, values in arrays.items():
         if values.ndim not in (1, 2) or len(values) != n:
             raise MeshError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import numbers
 
 import numpy as np
@@ -137,7 +138,7 @@ def _weigh(edges: Integers, lengths: Floats, weights: str, scale: float | None) 
     if scale is None and not len(edges):
         return lengths
     sigma = float(lengths.mean()) if scale is None else scale
-    if not isinstance(sigma, numbers.Real) or not np.isfinite(sigma) or sigma <= 0:
+    if not isinstance(sigma, numbers.Real) or not math.isfinite(sigma) or sigma <= 0:
         raise MeshError(f"the scale of gaussian weights is a positive length, not {shown(sigma)}")
     with np.errstate(over="ignore"):  # so far away that the weight is 0
         return np.asarray(np.exp(-((lengths / float(sigma)) ** 2) / 2))

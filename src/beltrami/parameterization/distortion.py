@@ -121,9 +121,10 @@ def distortion(mesh: Mesh, uv: ArrayLike) -> Distortion:
     return measured(mesh, as_map(uv, mesh.n_vertices))
 
 
-def measured(mesh: Mesh, x: Floats) -> Distortion:
-    """Measure without checking."""
-    return Distortion(read_only(singular_values(*jacobians(mesh, x))), mesh.face_areas)
+def measured(mesh: Mesh, x: Floats, g: Floats | None = None) -> Distortion:
+    """Measure without checking; g are the slopes, if they are known."""
+    g = slopes(mesh) if g is None else g
+    return Distortion(read_only(singular_values(*jacobians(mesh, x, g))), mesh.face_areas)
 
 
 def slopes(mesh: Mesh) -> Floats:
@@ -144,12 +145,11 @@ def slopes(mesh: Mesh) -> Floats:
     return np.stack([along, across], axis=2) / unit
 
 
-def jacobians(mesh: Mesh, x: Floats) -> tuple[Floats, Floats]:
+def jacobians(mesh: Mesh, x: Floats, g: Floats) -> tuple[Floats, Floats]:
     """Return the (m, 2) derivatives of the map along the two directions of ``slopes``.
 
     Differences come first, so that a map of a tiny region far from 0 keeps its digits.
     """
-    g = slopes(mesh)
     p = x[mesh.faces[:, 1]] - x[mesh.faces[:, 0]]
     q = x[mesh.faces[:, 2]] - x[mesh.faces[:, 0]]
     a, b = (p * g[:, 1, c, None] + q * g[:, 2, c, None] for c in range(2))

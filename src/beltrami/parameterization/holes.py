@@ -9,7 +9,6 @@ import numpy as np
 from beltrami._arrays import Booleans, Floats, Integers, read_only
 from beltrami.mesh.cut import Cut, cut_along
 from beltrami.mesh.mesh import Mesh
-from beltrami.parameterization.parameterization import Parameterization, certified
 
 HOLES = ("cut", "fill")
 _HEIGHT = 0.01  # of the tip above a hole, over its length: no fan has a face without area
@@ -75,20 +74,26 @@ def _length(loop: Floats) -> float:
     return float(np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1).sum())
 
 
-def without_fillings(
-    psi: Parameterization, mesh: Mesh, filled: Filled, *, strict: bool
-) -> Parameterization:
-    """Restrict the map of a filled surface to the surface: a bijection stays one."""
+def emptied(filled: Filled, mesh: Mesh, current: Cut, f: Floats) -> tuple[Cut, Floats]:
+    """Take the fans out of a cut of the filled surface and of a function on it.
+
+    The first copy of each vertex keeps its number, the others come at the end.
+    """
     apart = filled.apart
     n, m = apart.mesh.n_vertices, apart.mesh.n_faces
-    used, faces = np.unique(psi.mesh.faces[:m], return_inverse=True)
-    vertex_map = apart.vertex_map[psi.vertex_map[used]]
+    used, local = np.unique(current.mesh.faces[:m], return_inverse=True)
+    before = current.vertex_map[used]
+    _, first = np.unique(before, return_index=True)
+    order = np.concatenate([first, np.setdiff1d(np.arange(len(used)), first)])
+    number = np.empty(len(used), np.int64)
+    number[order] = np.arange(len(used))
+    vertex_map = apart.vertex_map[before[order]]
     data = {name: values[vertex_map] for name, values in mesh.vertex_data.items()}
-    opened = Mesh(mesh.vertices[vertex_map], faces.reshape(-1, 3), data, mesh.corner_uv)
-    inner = psi.cut_edges[_both_sides_are_real(psi.cut_edges, apart.mesh, n)]
+    faces = number[local].reshape(-1, 3)
+    opened = Mesh(mesh.vertices[vertex_map], faces, data, mesh.corner_uv)
+    inner = current.edges[_both_sides_are_real(current.edges, apart.mesh, n)]
     edges = np.concatenate([apart.edges, np.sort(apart.vertex_map[inner], axis=1)])
-    cut = Cut(opened, read_only(vertex_map), read_only(edges))
-    return certified(mesh, cut, psi.uv[used], f"{psi.method}, holes filled", strict=strict)
+    return Cut(opened, read_only(vertex_map), read_only(edges)), f[used[order]]
 
 
 def _both_sides_are_real(edges: Integers, mesh: Mesh, n: int) -> Booleans:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,28 +11,52 @@ from beltrami._arrays import Floats, Integers
 from beltrami._jit import kernel
 
 
-def locate(corners: Floats, points: Floats) -> tuple[Integers, Floats]:
-    """Return the face that each point lies in, -1 outside, and its barycentric coordinates.
+@dataclass(frozen=True, eq=False, repr=False)
+class Locator:
+    """Triangles of the plane in a balanced tree of boxes; ``locator`` makes it.
 
-    Faces are kept in a balanced tree of boxes, halved by the longer way of their middles, so that
-    tiny faces cost no more than large ones. Of several faces, as for a point on a side, the one in
-    which it lies deepest is taken; outside all it must be nearer than 1e-9 of a height.
+    Attributes
+    ----------
+    tree : (2 l - 1, 2, 2)
+        The lowest and the highest corner of each box; the children of k are 2 k + 1 and 2 k + 2.
+    order : (l,) int
+        The face of each leaf.
+    corners : (m, 3, 2)
+        The corners of the faces.
+    """
+
+    tree: Floats
+    order: Integers
+    corners: Floats
+
+    def locate(self, points: Floats) -> tuple[Integers, Floats]:
+        """Return the (q,) face that each point lies in, -1 outside, and (q, 3) coordinates in it.
+
+        Of several faces, as for a point on a side, the one in which it lies deepest is taken;
+        outside all it must be nearer than 1e-9 of a height. Coordinates are NaN outside. Cost:
+        O(log m) for each point.
+        """
+        faces = np.empty(len(points), np.int64)
+        inside = np.empty((len(points), 3))
+        x = np.ascontiguousarray(points)
+        _search(self.tree, self.order, self.corners, x, faces, inside)
+        return faces, inside
+
+
+def locator(corners: Floats) -> Locator:
+    """Put faces into a tree of boxes, halved by the longer way of their middles.
+
+    Tiny faces cost no more than large ones, as they would in a grid. Cost: O(m log² m).
 
     Parameters
     ----------
     corners
         (m, 3, 2) corners of the faces, counter-clockwise.
-    points
-        (q, 2) points.
-
-    Returns
-    -------
-    (q,) faces, (q, 3) coordinates, NaN outside. Cost: O(m log² m) once, O(log m) for each point.
 
     Examples
     --------
     >>> square = np.array([[[0.0, 0], [1, 0], [1, 1]], [[0, 0], [1, 1], [0, 1]]])
-    >>> found = locate(square, np.array([[0.75, 0.25], [2, 0]]))
+    >>> found = locator(square).locate(np.array([[0.75, 0.25], [2, 0]]))
     >>> found[0].tolist(), found[1][0].tolist()
     ([0, -1], [0.25, 0.5, 0.25])
     """
@@ -41,11 +66,7 @@ def locate(corners: Floats, points: Floats) -> tuple[Integers, Floats]:
     while len(levels[-1]) > 1:
         boxes = levels[-1].reshape(-1, 2, 2, 2)
         levels.append(np.stack([boxes[:, :, 0].min(axis=1), boxes[:, :, 1].max(axis=1)], axis=1))
-    tree = np.concatenate(levels[::-1])  # the children of k are 2 k + 1 and 2 k + 2
-    faces = np.empty(len(points), np.int64)
-    inside = np.empty((len(points), 3))
-    _search(tree, order, np.ascontiguousarray(corners), np.ascontiguousarray(points), faces, inside)
-    return faces, inside
+    return Locator(np.concatenate(levels[::-1]), order, np.ascontiguousarray(corners))
 
 
 def _halved(middles: Floats) -> Integers:

@@ -2,50 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Booleans, Floats, Integers, read_only
+from beltrami._arrays import Floats, as_indices
 from beltrami.errors import MeshError, NotADiskError, check_name
-from beltrami.mesh.cut import Cut, cut_along, edges_between, shortest_paths
+from beltrami.mesh.cut import Cut
 from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.tree_cotree import cut_to_disk
 from beltrami.operators.soundness import refuse_unreferenced, require_sound
-from beltrami.operators.weights import Weigher, edge_weights
-from beltrami.parameterization.boundary import Curve, place_boundary, refuse_dividing_edges
-from beltrami.parameterization.harmonic import solve_harmonic
-from beltrami.parameterization.holes import HOLES, fill_holes, without_fillings
+from beltrami.operators.weights import Weigher
+from beltrami.parameterization.boundary import Curve
+from beltrami.parameterization.components import CONFORMAL, Request, map_component, settle
+from beltrami.parameterization.holes import HOLES, Filled, emptied, fill_holes
 from beltrami.parameterization.layout import part_of, side_by_side
 from beltrami.parameterization.parameterization import Parameterization, certified
-from beltrami.parameterization.relaxation import relax
-from beltrami.parameterization.reweighting import Step, assess, reweighted
 
-METHODS = ("auto", "tutte", "free")
-_STEPS = 30  # of reweighting, at most
-_DEFAULTS: dict[str, tuple[str, ...]] = {
+METHODS = ("auto", "tutte", "free", *CONFORMAL)
+_DEFAULTS: dict[str, tuple[str | Weigher, ...]] = {
     "auto": ("clamped", "mean_value", "combinatorial"),
     "tutte": ("mean_value",),
     "free": ("clamped", "mean_value", "combinatorial"),
 }
-_BAD = 50.0  # symmetric Dirichlet energy above which other weights are tried
-_RELAXATIONS = 50  # steps of it, at most
-_RESCUES = 8  # seams to be tried where a map folds
-_WORTH = 0.95  # a seam is kept if it lowers the distortion to this part
-
-
-@dataclass(frozen=True)
-class _Request:
-    """What was asked for, to map each component alike."""
-
-    method: str
-    weights: tuple[str | Weigher, ...]  # the next ones only where those before give a bad map
-    boundary: Curve
-    spacing: str
-    corners: ArrayLike | None
-    bulge: float
+_WORDS = {"auto": "relaxed from", "tutte": "Tutte,", "free": "free boundary, from"}
 
 
 def parameterize(
@@ -76,16 +56,18 @@ def parameterize(
     mesh
         Any oriented surface. What is not a disk is cut into one by ``cut_to_disk``.
     method
-        ``"auto"``: weights are corrected until the distortion stops falling (see
-        ``reweighted``); ``"tutte"``: one solve with the weights as they are; ``"free"``: then let
-        the boundary go, and lower the symmetric Dirichlet energy as far as it falls without a
-        fold or a crossing of the boundary (see ``relax``): the least distortion, in the unit of
-        length of the mesh.
+        ``"tutte"``: one solve with the weights as they are. ``"auto"``: weights are corrected
+        while the map is bad (see ``reweighted``), then the symmetric Dirichlet energy is lowered
+        as far as it falls without a fold, the boundary held (see ``relax``). ``"free"``: the
+        boundary is let go, and does not cross itself: the least distortion, in the unit of length
+        of the mesh. ``"least_squares_conformal"`` and ``"spectral_conformal"``: angles are
+        kept as far as a free boundary allows, areas are not, and the boundary may overlap (see
+        ``conformal_energy``); the unit of length is that of the mesh.
     weights
         ``"combinatorial"``, ``"distance"``, ``"mean_value"``, ``"clamped"`` or a callable: all
         positive. ``"cotangent"`` is negative where two angles add to more than π, and may fold
         (E90). By default ``"mean_value"`` for the method ``"tutte"``; else ``"clamped"``, and
-        where that folds or has an energy above 50 the best of it, ``"mean_value"`` and
+        where that folds or ends at an energy above 50 the best of it, ``"mean_value"`` and
         ``"combinatorial"``.
     boundary
         ``"circle"``, ``"square"``, a number of sides or the corners of a convex polygon: see
@@ -93,7 +75,8 @@ def parameterize(
     spacing
         ``"arclength"`` or ``"uniform"``.
     corners
-        Vertices of the boundary that go to the corners of the polygon.
+        Vertices of the boundary that go to the corners of the polygon; of
+        ``"least_squares_conformal"`` the two vertices that are held.
     bulge
         Bend its sides outwards, by this part of their length: where inner edges have both ends on
         one side, 0.01 helps.
@@ -102,12 +85,15 @@ def parameterize(
     holes
         What to do with all boundaries of a component but the longest: ``"cut"`` leads a seam to
         each; ``"fill"`` closes them with faces that are dropped when the map is made, so that
-        they lie within it as holes, and nothing is torn.
+        they lie within it as holes, of any shape, and nothing is torn.
     seams
         Up to so many more cuts in each component, from the boundary to the vertex that is
         stretched most, as long as each lowers the distortion by 5 %.
     strict
-        Raise if the map is not a bijection; False returns it all the same, and says so.
+        Never return a map that is no bijection. Where ``"auto"`` and ``"free"`` fold in spite of
+        all seams, the disk is drawn exactly, by whole numbers (see ``draw``), and then relaxed
+        with a free boundary: its ``method`` says so. Other methods raise. False returns the
+        map as it is, and says that it folds.
 
     Returns
     -------
@@ -117,28 +103,31 @@ def parameterize(
     Raises
     ------
     FoldedMapError
-        With the faces, if the map is not a bijection. For ``"auto"`` up to eight more seams are
-        tried before (with ``cut=True``).
+        With the faces, if the map is not a bijection. For ``"auto"`` and ``"free"`` up to eight
+        more seams are tried before (with ``cut=True``), and then the drawing.
     NotADiskError
         If ``cut`` is False and a component is not a disk.
     NotOrientableError
         If neighbouring faces disagree on the outside.
     BoundaryCurveError
         If the polygon is not convex, or an inner edge has both ends on one of its sides.
+    MeshError
+        If an option is given that a conformal map does not use, or not two vertices to hold.
     EmptyMeshError, NonFiniteError, DegenerateFaceError, UnreferencedVertexError
         If the mesh is not sound.
 
     Notes
     -----
-    One sparse factorisation for both coordinates at each step. Symmetric weights stay symmetric
-    and go to Cholesky, several times faster than LU, which those of the mean value need.
+    Tutte's maps take one sparse factorisation for both coordinates. Symmetric weights go to
+    Cholesky, several times faster than LU, which those of the mean value need. Conformal maps,
+    and each step of relaxation, take one of twice as many unknowns.
 
     Examples
     --------
     >>> from beltrami.mesh.shapes import torus
     >>> psi = parameterize(torus(24, 16))
     >>> psi.is_bijective, len(psi.cut_edges), round(psi.distortion.symmetric_dirichlet, 1)
-    (True, 40, 2.4)
+    (True, 40, 2.3)
     """
     check_name("method of parameterisation", method, METHODS)
     require_sound(require_mesh(mesh, "a parameterisation"))
@@ -146,34 +135,76 @@ def parameterize(
         refuse_unreferenced(mesh.topology)
     if seams < 0:
         raise MeshError(f"the number of seams cannot be {seams}")
-    if check_name("treatment of holes", holes, HOLES) == "fill":
-        filled = fill_holes(mesh)
-        psi = parameterize(
-            filled.mesh,
-            method,
-            weights,
-            boundary,
-            spacing=spacing,
-            corners=corners,
-            bulge=bulge,
-            cut=cut,
-            seams=seams,
-            strict=strict,
-        )
-        return without_fillings(psi, mesh, filled, strict=strict)
-    kinds: tuple[str | Weigher, ...] = (weights,) if weights is not None else _DEFAULTS[method]
-    asked = _Request(method, kinds, boundary, spacing, corners, bulge)
-    current = cut_to_disk(mesh) if cut else _as_it_is(mesh)
+    if method in CONFORMAL:
+        _refuse_what_is_not_used(mesh, method, weights, boundary, corners, bulge)
+    kinds = _DEFAULTS.get(method, ()) if weights is None else (weights,)
+    filled = fill_holes(mesh) if check_name("treatment of holes", holes, HOLES) == "fill" else None
+    if filled is not None and filled.mesh.n_faces == mesh.n_faces:
+        filled = None
+    given = mesh if filled is None else filled.mesh
+    current = cut_to_disk(given) if cut else _as_it_is(given)
+    places = None if corners is None else as_indices(corners, current.mesh.n_vertices, "corners")
+    asked = Request(method, kinds, boundary, spacing, places, bulge, seams, cut, draw=strict)
     labels = current.mesh.components()
-    uv = np.zeros((current.mesh.n_vertices, 2))
+    uv, drawn = np.zeros((current.mesh.n_vertices, 2)), 0
     for component in range(int(labels.max()) + 1):
-        faces = labels == component
-        current, uv = _mapped(current, uv, faces, asked, seams if cut else 0, rescue=cut)
+        found = map_component(current, uv, labels == component, asked)
+        current, uv, drawn = found.cut, found.uv, drawn + found.drawn
+    if filled is not None:
+        current, uv = _without(filled, mesh, current, uv, asked)
+        labels = current.mesh.components()
     uv = side_by_side(current.mesh, uv, labels)
-    how = {"auto": "reweighted from", "tutte": "Tutte,", "free": "free boundary, from"}
+    return certified(mesh, current, uv, _words(method, weights, drawn), strict=strict)
+
+
+def _without(
+    filled: Filled, mesh: Mesh, current: Cut, uv: Floats, asked: Request
+) -> tuple[Cut, Floats]:
+    """Take the fillings of holes out, and relax what they held."""
+    rim = current.mesh.topology.on_boundary
+    current, values = emptied(filled, mesh, current, np.column_stack([uv, rim]))
+    uv, rim = values[:, :2].copy(), values[:, 2] > 0
+    if not asked.rescue:
+        return current, uv
+    labels = current.mesh.components()
+    for component in range(int(labels.max()) + 1):
+        part, number = part_of(current.mesh, labels == component)
+        held = None if asked.method == "free" else rim[number]
+        uv[number] = settle(part, uv[number], held)
+    return current, uv
+
+
+def _words(method: str, weights: str | Weigher | None, drawn: int) -> str:
+    """Say how a map was made."""
+    if method in CONFORMAL:
+        return method.replace("_", " ")
     named = "default" if weights is None else weights if isinstance(weights, str) else "given"
-    words = f"{how[method]} {named} weights"
-    return certified(mesh, current, uv, words, strict=strict)
+    words = f"{_WORDS[method]} {named} weights"
+    return f"{words}; {drawn} components by Schnyder woods, relaxed" if drawn else words
+
+
+def _refuse_what_is_not_used(
+    mesh: Mesh,
+    method: str,
+    weights: str | Weigher | None,
+    boundary: Curve,
+    corners: ArrayLike | None,
+    bulge: float,
+) -> None:
+    """Raise MeshError for options that conformal maps would ignore."""
+    on_circle = isinstance(boundary, str) and boundary == "circle"
+    if weights is not None or not on_circle or bulge != 0:
+        raise MeshError(
+            f"{method.replace('_', ' ')} maps have cotangent weights and a free boundary: weights, "
+            "boundary and bulge are not for them"
+        )
+    if corners is None:
+        return
+    if method == "spectral_conformal":
+        raise MeshError("spectral conformal maps hold no vertex: corners are not for them")
+    held = as_indices(corners, mesh.n_vertices, "held vertices")
+    if len(held) != 2 or held[0] == held[1]:
+        raise MeshError("least squares conformal maps hold two vertices", vertices=held)
 
 
 def _as_it_is(mesh: Mesh) -> Cut:
@@ -186,84 +217,3 @@ def _as_it_is(mesh: Mesh) -> Cut:
             remedy="Allow it with cut=True, or cut it yourself.",
         )
     return found
-
-
-def _mapped(
-    current: Cut, uv: Floats, faces: Booleans, asked: _Request, seams: int, *, rescue: bool
-) -> tuple[Cut, Floats]:
-    """Map one component; return the mesh with the seams that it needed, and all positions."""
-    part, number = part_of(current.mesh, faces)
-    best = _solved(part, number, asked)
-    tries = 0
-    while True:
-        folded = best.flips > 0 and rescue and asked.method != "tutte"
-        if tries >= (max(_RESCUES, seams) if folded else seams):
-            break
-        tries += 1
-        found = []
-        for seam in _seams(part, best):
-            longer = _extended(current, number[seam])
-            pieces = part_of(longer.mesh, faces)
-            found.append((_solved(*pieces, asked), longer, *pieces))
-        if not found:
-            break
-        step, longer, new_part, new_number = min(found, key=lambda one: one[0].rank)
-        better = (step.flips, step.rank[1]) < (best.flips, _WORTH * best.rank[1])
-        if not better and not folded:
-            break
-        current, part, number, best = longer, new_part, new_number, step
-    added = current.mesh.n_vertices - len(uv)
-    uv = np.concatenate([uv, np.zeros((added, 2))])
-    uv[number] = relax(part, best.uv, _RELAXATIONS)[0] if asked.method == "free" else best.uv
-    return current, uv
-
-
-def _solved(part: Mesh, number: Integers, asked: _Request) -> Step:
-    """Map a disk."""
-    loop = part.topology.boundary_loops[0]
-    corners = asked.corners
-    if corners is not None:
-        place = {int(v): q for q, v in enumerate(number)}
-        wanted = np.asarray(corners).ravel().tolist()
-        corners = np.array([place.get(int(v), -1) for v in wanted])
-    placed = place_boundary(
-        part, loop, asked.boundary, spacing=asked.spacing, corners=corners, bulge=asked.bulge
-    )
-    if not (isinstance(asked.boundary, str) and asked.boundary == "circle"):
-        refuse_dividing_edges(part, loop, placed)
-    steps: list[Step] = []
-    for kind in asked.weights:
-        W = edge_weights(part, kind)
-        if asked.method == "tutte":
-            steps.append(assess(part, solve_harmonic(W, loop, placed, part.vertices)))
-        else:
-            steps.append(reweighted(part, W, loop, placed, _STEPS)[0])
-        if steps[-1].rank <= (0, _BAD):
-            break
-    return min(steps, key=lambda step: step.rank)
-
-
-def _seams(part: Mesh, step: Step) -> list[Integers]:
-    """Return paths of vertices from the boundary: to the farthest vertex, and to the worst face."""
-    loop = part.topology.boundary_loops[0]
-    distance, before = shortest_paths(part, loop)
-    worst = part.faces[int(step.distortion.energy.argmax())]
-    targets = [int(distance.argmax()), int(worst[distance[worst].argmax()])]
-    paths = []
-    for path in ([target] for target in targets):
-        while before[path[-1]] >= 0:
-            path.append(int(before[path[-1]]))
-        if len(path) > 1:
-            paths.append(np.array(path, np.int64))
-    return paths
-
-
-def _extended(current: Cut, path: Integers) -> Cut:
-    """Cut along a path of vertices too."""
-    mesh = current.mesh
-    chosen = np.zeros(mesh.topology.n_edges, np.bool_)
-    chosen[edges_between(mesh.topology, path[1:], path[:-1])] = True
-    longer = cut_along(mesh, chosen)
-    chain = current.vertex_map
-    edges = np.concatenate([current.edges, np.sort(chain[longer.edges], axis=1)])
-    return replace(longer, vertex_map=read_only(chain[longer.vertex_map]), edges=read_only(edges))

@@ -1,164 +1,168 @@
-"""Relaxation: a bijection with a free boundary, as isometric as it gets, no fold on the way."""
+"""Relaxation: a bijection made as isometric as it gets, with no fold on the way."""
 
 from __future__ import annotations
 
+import math
+from contextlib import suppress
+
 import numpy as np
-from scipy.sparse import csr_array
+from scipy.sparse import csc_array
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Booleans, Floats
+from beltrami.errors import BeltramiError
 from beltrami.mesh.mesh import Mesh
+from beltrami.parameterization.barrier import Barrier, boundary_barrier
+from beltrami.parameterization.block_pattern import BlockPattern, block_pattern
 from beltrami.parameterization.crossings import crossings
-from beltrami.parameterization.distortion import measured, slopes
+from beltrami.parameterization.isometric_energy import (
+    IsometricEnergy,
+    first_collapse,
+    isometric_energy,
+)
 from beltrami.parameterization.predicates import orientation
+from beltrami.solvers.cholesky import factorize_cholesky
+from beltrami.solvers.elimination import Elimination
 from beltrami.solvers.factorize import factorize
+from beltrami.solvers.ordering import as_positions, order
 
-_SETTLED = 1e-4  # relative decrease of the energy at which it stops
 _SHORTEST = 1e-8  # of a step, before it is given up
+_LONGER = 1.5  # factor by which a step is made longer, as long as the energy falls
 _SHIFT = 1e-9  # of the Hessian, over its mean diagonal: moving and turning cost nothing
 
 
-def relax(mesh: Mesh, uv: Floats, steps: int) -> tuple[Floats, int]:
-    r"""Lower the symmetric Dirichlet energy of a bijection of a disk; return it and the steps.
+def relax(
+    mesh: Mesh,
+    uv: Floats,
+    steps: int,
+    held: Booleans | None,
+    settled: float,
+) -> tuple[Floats, int]:
+    r"""Lower the symmetric Dirichlet energy of a bijection; return it and the steps.
 
-    The energy :math:`\sum_f A_f (\sigma_1^2 + \sigma_2^2 + \sigma_1^{-2} + \sigma_2^{-2})` is
-    infinite where a face collapses. Each step is one of Newton, with the Hessian of each face
-    projected to the semi-definite matrices by its known eigenvectors (B. Smith, F. de Goes, T.
-    Kim, Analytic eigensystems for isotropic distortion energies, 2019). It is shortened so that
-    no face turns over (J. Smith, S. Schaefer, Bijective parameterization with free boundaries,
-    2015), the boundary does not cross itself, both decided exactly, and the energy falls.
+    The energy, :math:`\sum_f A_f (\sigma_1^2 + \sigma_2^2 + \sigma_1^{-2} + \sigma_2^{-2})` at
+    the best scale, is infinite where a face collapses. Each step is one of Newton, with the
+    Hessian of each face projected to the semi-definite matrices. It is shortened so that no face
+    turns over (J. Smith, S. Schaefer, Bijective parameterization with free boundaries, 2015), the
+    boundary does not cross itself, both decided exactly, and the energy falls; or made longer,
+    as long as it falls. A barrier lets a boundary slide along itself (see ``Barrier``).
 
     Parameters
     ----------
     mesh
-        A disk of n vertices.
+        A surface of n vertices, of which there is such a map.
     uv
         (n, 2) a bijection to start from.
     steps
-        How many, at most; it stops when the energy falls by less than 1e-4 of itself.
+        How many, at most.
+    held
+        (n,) vertices that stay where they are, or none. A boundary that may move does not cross
+        itself, nor one that is held.
+    settled
+        It stops when the energy falls by less than this part of itself.
 
     Returns
     -------
-    (n, 2) positions, in the unit of length of the mesh, and the number of steps. What folds at
-    the start is only scaled.
+    (n, 2) positions, in the unit of length of the mesh if nothing is held, and the number of
+    steps. What folds at the start is only scaled.
+
+    Notes
+    -----
+    One factorisation for each step, all in one order of elimination.
     """
-    size = float(np.sqrt(mesh.area))
-    g = slopes(mesh) * size
-    areas = mesh.face_areas / mesh.area
-    x = uv / _best_scale(mesh, uv) / size
-    energy = _energy(g, areas, x[mesh.faces])
-    done = 0
-    while done < steps and np.isfinite(energy):
-        gradient, hessian = _derivatives(mesh, g, areas, x)
-        ends = np.repeat(mesh.vertices, 2, axis=0)
-        direction = factorize(hessian, ends).solve(-gradient).reshape(-1, 2)
-        slope = float((gradient.reshape(-1, 2) * direction).sum())
-        found = _shortened(mesh, g, areas, x, energy, direction, slope)
-        if found is None:
-            break
-        done += 1
-        decrease = (energy - found[1]) / energy
-        x, energy = found
-        if decrease < _SETTLED:
-            break
-    return x * size, done
+    energy = isometric_energy(mesh)
+    free = np.ones(mesh.n_vertices, np.bool_) if held is None else ~held
+    x, done = uv, 0
+    sums = energy.sums(x)
+    if free.any() and all(map(math.isfinite, sums)):
+        pattern, plan = block_pattern(mesh, free), None
+        loose = bool(free[mesh.topology.on_boundary].any())
+        while done < steps:
+            t = _best_scale(sums)
+            barrier = boundary_barrier(mesh, x) if loose else None
+            direction, slope, plan = _newton(energy, x, t, barrier, pattern, plan)
+            found = _shortened(energy, x, t, barrier, direction, slope)
+            if found is None:
+                break
+            done += 1
+            x, before, after = found
+            sums = energy.sums(x)
+            if after > (1 - settled) * before:
+                break
+    return (x if held is not None else x * _best_scale(sums)), done
 
 
-def _best_scale(mesh: Mesh, uv: Floats) -> float:
-    """Return by how much the map is too large: the energy is least for uv over it."""
-    squares = measured(mesh, uv).singular_values ** 2
-    areas = mesh.face_areas
-    with np.errstate(divide="ignore", over="ignore"):
-        ratio = (areas @ squares.sum(axis=1)) / (areas @ (1 / squares).sum(axis=1))
-    return float(ratio**0.25) if ratio > 0 else 1.0
+def _best_scale(sums: tuple[float, float]) -> float:
+    """Return the factor at which the energy of a map is least."""
+    ratio = sums[1] / sums[0] if sums[0] > 0 else 1.0
+    return float(ratio**0.25) if math.isfinite(ratio) and ratio > 0 else 1.0
 
 
-def _jacobians(g: Floats, corners: Floats) -> Floats:
-    """Return the (m, 2, 2) matrices J[i, p], coordinate i along direction p."""
-    sides = corners[:, 1:] - corners[:, :1]
-    return np.einsum("fci,fcp->fip", sides, g[:, 1:])
-
-
-def _energy(g: Floats, areas: Floats, corners: Floats) -> float:
-    """Return the energy over 4: 1 for an isometry; infinite if a face is turned over."""
-    J = _jacobians(g, corners)
-    squares = (J**2).sum(axis=(1, 2))
-    determinant = J[:, 0, 0] * J[:, 1, 1] - J[:, 0, 1] * J[:, 1, 0]
-    if not (determinant > 0).all():
-        return np.inf
-    with np.errstate(over="ignore"):
-        return float(areas @ (squares * (1 + 1 / determinant**2))) / 4
-
-
-def _derivatives(mesh: Mesh, g: Floats, areas: Floats, x: Floats) -> tuple[Floats, csr_array]:
-    """Return the gradient (2n,) of the energy times 4, and its projected Hessian."""
-    U, s, V = np.linalg.svd(_jacobians(g, x[mesh.faces]))
-    first, second = 2 * s - 2 * s**-3, 2 + 6 * s**-4
-    P = np.einsum("fik,fk,fkp->fip", U, first, V)
-    twist = (first[:, 0] + first[:, 1]) / (s[:, 0] + s[:, 1])
-    third = s[:, 0] * s[:, 1]
-    flip = 2 + 2 * (s[:, 0] ** 2 + third + s[:, 1] ** 2) / third**3  # quotient of differences
-    root = np.sqrt(0.5)
-    modes = np.array(
-        [[[1, 0], [0, 0]], [[0, 0], [0, 1]], [[0, -root], [root, 0]], [[0, root], [root, 0]]]
+def _newton(
+    energy: IsometricEnergy,
+    x: Floats,
+    t: float,
+    barrier: Barrier | None,
+    pattern: BlockPattern,
+    plan: Elimination | None,
+) -> tuple[Floats, float, Elimination]:
+    """Return the direction of Newton's step, the slope along it, and the order of elimination."""
+    free = pattern.number >= 0
+    gradient, entries = energy.derivatives(x, t, pattern)
+    if barrier is not None:
+        barrier.add_derivatives(x, pattern, gradient, entries)
+    diagonal = np.add.outer(pattern.vertex_slots, [0, 1]) + np.multiply.outer(
+        pattern.widths, [0, 1]
     )
-    curved = np.stack([second[:, 0], second[:, 1], np.maximum(twist, 0), flip], axis=1)
-    D = np.einsum("fik,ekl,flp->feip", U, modes, V)
-    on_corners = np.einsum("fcp,feip->feci", g, D).reshape(len(g), 4, 6)
-    blocks = np.einsum("feu,fe,fev->fuv", on_corners, curved * areas[:, None], on_corners)
-    unknowns = (2 * mesh.faces[:, :, None] + np.arange(2)).reshape(-1, 6)
-    size = 2 * mesh.n_vertices
-    rows, columns = np.repeat(unknowns, 6, axis=1), np.tile(unknowns, (1, 6))
-    H = csr_array((blocks.ravel(), (rows.ravel(), columns.ravel())), shape=(size, size))
-    H = (H + H.T) / 2
-    shift = _SHIFT * H.diagonal().mean()
-    diagonal = np.arange(size)
-    H = csr_array(H + csr_array((np.full(size, shift), (diagonal, diagonal)), shape=(size, size)))
-    pull = np.einsum("fip,fcp,f->fci", P, g, areas).reshape(-1, 6)
-    gradient = np.bincount(unknowns.ravel(), pull.ravel(), size)
-    return np.asarray(gradient, dtype=np.float64), H
+    entries[diagonal] += _SHIFT * entries[diagonal].mean()
+    H = pattern.matrix(entries)
+    positions = np.repeat(energy.mesh.vertices[free], 2, axis=0)
+    if plan is None:
+        plan = order(H, as_positions(positions, pattern.size), "auto")
+    direction = np.zeros_like(x)
+    direction[free] = _solution(H, positions, plan, -gradient.ravel()).reshape(-1, 2)
+    return direction, float((gradient * direction[free]).sum()), plan
+
+
+def _solution(H: csc_array, positions: Floats, plan: Elimination, right: Floats) -> Floats:
+    """Solve, in another way where a pivot is lost; 0 where that fails too: no step is made then."""
+    try:
+        return factorize_cholesky(H, plan).solve(right)
+    except BeltramiError:
+        with suppress(BeltramiError):
+            return factorize(H, positions, "superlu").solve(right)
+    return np.zeros_like(right)
 
 
 def _shortened(
-    mesh: Mesh,
-    g: Floats,
-    areas: Floats,
+    energy: IsometricEnergy,
     x: Floats,
-    energy: float,
+    t: float,
+    barrier: Barrier | None,
     direction: Floats,
     slope: float,
-) -> tuple[Floats, float] | None:
-    """Return the positions after the longest allowed of the steps tried, and their energy."""
-    step = min(1.0, 0.9 * _first_collapse(x[mesh.faces], direction[mesh.faces]))
-    edges = mesh.topology.boundary_edges
+) -> tuple[Floats, float, float] | None:
+    """Return the positions after the longest allowed step, and the energies before and after."""
+    mesh = energy.mesh
+    edges = mesh.edges[:0] if barrier is None else barrier.edges
+    longest = 0.9 * first_collapse(mesh, x, direction)
+    step = min(1.0, longest)
+
+    def total(y: Floats) -> float:
+        grown, shrunk = energy.sums(y)
+        return grown * t**2 + shrunk / t**2 + (0.0 if barrier is None else barrier.energy(y))
+
+    start, here = total(x), total(x + step * direction)
+    while here < start and _LONGER * step < longest:
+        farther = total(x + _LONGER * step * direction)
+        if not farther < here:
+            break
+        step, here = _LONGER * step, farther
     while step > _SHORTEST:
-        moved = x + step * direction
-        new = _energy(g, areas, moved[mesh.faces])
-        if new < energy + 1e-4 * step * slope / 4:
+        if here < start + 1e-4 * step * slope:
+            moved = x + step * direction
             a, b, c = moved[mesh.faces].transpose(1, 0, 2)
             if (orientation(a, b, c) > 0).all() and not len(crossings(moved, edges)):
-                return moved, new
+                return moved, start, here
         step /= 2
+        here = total(x + step * direction)
     return None
-
-
-def _first_collapse(x: Floats, d: Floats) -> float:
-    """Return the smallest t > 0 at which a face of the corners x + t d has no area.
-
-    The area is a quadratic polynomial c + bt + at² with c > 0.
-    """
-    u, v = x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]
-    p, q = d[:, 1] - d[:, 0], d[:, 2] - d[:, 0]
-    c = _cross(u, v)
-    b = _cross(u, q) + _cross(p, v)
-    a = _cross(p, q)
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        root = np.sqrt(b * b - 4 * a * c)
-        t = 2 * c / (-b + root)  # the form without cancellation where b < 0
-        other = 2 * c / (-b - root)
-    times = np.concatenate([t, other])
-    times = times[np.isfinite(times) & (times > 0)]
-    return float(times.min()) if len(times) else np.inf
-
-
-def _cross(u: Floats, v: Floats) -> Floats:
-    return np.asarray(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])

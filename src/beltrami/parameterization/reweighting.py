@@ -10,8 +10,8 @@ from scipy.sparse import csr_array
 from beltrami._arrays import Floats, Integers
 from beltrami.errors import MeshError
 from beltrami.mesh.mesh import Mesh
-from beltrami.parameterization.distortion import Distortion, measured
-from beltrami.parameterization.harmonic import solve_harmonic
+from beltrami.parameterization.distortion import Distortion, measured, slopes
+from beltrami.parameterization.harmonic import plan_harmonic, solve_harmonic
 from beltrami.parameterization.predicates import orientation
 
 _PATIENCE = 3  # steps without a better map before the exponent is halved
@@ -36,7 +36,14 @@ class Step:
 
 
 def reweighted(
-    mesh: Mesh, W: csr_array, loop: Integers, placed: Floats, steps: int
+    mesh: Mesh,
+    W: csr_array,
+    loop: Integers,
+    placed: Floats,
+    steps: int,
+    *,
+    enough: float = 1.0,
+    symmetric: bool = False,
 ) -> tuple[Step, int]:
     r"""Return the best of a sequence of Tutte maps, and how many there were.
 
@@ -49,19 +56,24 @@ def reweighted(
     logarithms, which a few wild faces do not rule. After three steps with η = 1 without a
     better map it goes back to the best one, and on from there with η = 1/2, 1/4, 1/8.
 
-    Rows of W may be scaled as one likes: with :math:`w_{ij} / (\sigma_i \sigma_j)^\eta` symmetric
-    weights stay symmetric.
+    It stops at an energy that is low ``enough``, or after so many steps. Rows of W may be scaled as
+    one likes: with :math:`w_{ij} / (\sigma_i \sigma_j)^\eta` symmetric weights stay symmetric.
     """
     n = mesh.n_vertices
     i, j = np.repeat(np.arange(n), np.diff(W.indptr)), W.indices
     total = np.zeros(n)  # logarithms of the products of all stretches
+    plan = plan_harmonic(W, loop, mesh.vertices) if symmetric else None
+    g = slopes(mesh)
     best: Step | None = None
     exponent, failed, done = 1.0, 0, 0
     while done < steps and exponent > _LEAST_EXPONENT:
         weights = W.data * np.exp(-(total[i] + total[j]))
         scaled = csr_array((weights, W.indices, W.indptr), shape=W.shape)
-        step = assess(mesh, solve_harmonic(scaled, loop, placed, mesh.vertices))
+        uv = solve_harmonic(scaled, loop, placed, mesh.vertices, symmetric=symmetric, plan=plan)
+        step = assess(mesh, uv, g)
         done += 1
+        if step.rank <= (0, enough):
+            return step, done
         here = total, _log_stretch(mesh, step)
         if best is None or step.rank < best.rank:
             best, kept, failed = step, here, 0
@@ -77,11 +89,11 @@ def reweighted(
     return best, done
 
 
-def assess(mesh: Mesh, uv: Floats) -> Step:
-    """Count the flips exactly, and measure."""
+def assess(mesh: Mesh, uv: Floats, g: Floats | None = None) -> Step:
+    """Count the flips exactly, and measure; g are the slopes, if they are known."""
     a, b, c = uv[mesh.faces].transpose(1, 0, 2)
     flips = int(np.count_nonzero(orientation(a, b, c) <= 0))
-    return Step(uv, flips, measured(mesh, uv))
+    return Step(uv, flips, measured(mesh, uv, g))
 
 
 def _log_stretch(mesh: Mesh, step: Step) -> Floats:

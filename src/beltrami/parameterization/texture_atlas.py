@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from beltrami._arrays import Floats, Integers, read_only
+from beltrami._carded import Carded
 from beltrami.mesh.mesh import Mesh
 from beltrami.parameterization.certificate import Certificate
 from beltrami.parameterization.distortion import Distortion
@@ -15,7 +16,7 @@ from beltrami.parameterization.parameterization import Parameterization
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class TextureAtlas:
+class TextureAtlas(Carded):
     """A surface in charts, which lie apart from each other in the unit square.
 
     ``atlas`` makes it.

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csc_array
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Floats, as_floats
 from beltrami.errors import BeltramiError, ConvergenceError, NonFiniteError
 from beltrami.solvers.matrix import as_right_hand_side
 
@@ -158,7 +158,7 @@ class Factor:
         >>> bool(factor.backward_error(factor.solve([1.0, 2.0]), [1.0, 2.0]) < 1e-15)
         True
         """
-        solution, right = np.asarray(x, np.float64), np.asarray(b, np.float64)
+        solution, right = as_floats(x), as_floats(b)
         scale = abs(self.matrix) @ np.abs(solution) + np.abs(right)
         residual = np.abs(right - self.matrix @ solution)
         ratio = np.divide(residual, scale, out=np.zeros_like(scale), where=scale > 0)

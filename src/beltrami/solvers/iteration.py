@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csc_array, csr_array
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Floats, whole
 from beltrami._progress import Progress
 from beltrami.errors import BeltramiError, ConvergenceError, DimensionError, NonFiniteError
 from beltrami.solvers.matrix import as_right_hand_side
@@ -116,8 +116,8 @@ def iterate(
     right = _finite(as_right_hand_side(b, n), "right-hand side")
     if not 0 < tolerance < 1:
         raise BeltramiError(f"the tolerance must be between 0 and 1, not {tolerance}")
-    if most is not None and not (most >= 1 and most == int(most)):
-        raise BeltramiError(f"most_iterations must be a whole number >= 1, not {most}")
+    if most is not None:
+        whole("most_iterations", most, 1)
     rows = np.ascontiguousarray(right.reshape(n, -1).T)
     basis = null_space(matrix, kernel)
     require_solvable(basis, rows, tolerance)

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csc_array, csr_array
 from scipy.sparse.csgraph import connected_components
 
-from beltrami._arrays import Floats, rectangular, require_finite
+from beltrami._arrays import Floats, as_floats, rectangular, require_finite
 from beltrami.errors import BeltramiError, DimensionError, SingularMatrixError, check_name
 
 _ROUNDING = 1e-14  # a sum of a row, beside the sum of its absolute values, that counts as zero
@@ -85,7 +85,7 @@ def _constants(matrix: csc_array) -> csr_array:
 def _span(matrix: csc_array, vectors: Any) -> csr_array | None:
     """Return an orthonormal basis of given vectors, after a check that A maps them to zero."""
     n = matrix.shape[0]
-    given = np.asarray(vectors, dtype=np.float64)
+    given = as_floats(vectors)
     given = given[:, None] if given.ndim == 1 else given
     if given.ndim != 2 or len(given) != n:
         raise DimensionError(f"the kernel has the shape {given.shape} where ({n}, k) is needed")

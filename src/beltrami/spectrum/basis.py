@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -10,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
-from beltrami._arrays import Floats, as_function, read_only, read_only_matrix, whole
+from beltrami._arrays import Floats, as_floats, as_function, read_only, read_only_matrix, whole
 from beltrami._carded import Carded
 from beltrami.errors import BeltramiError, DimensionError, NonFiniteError
 from beltrami.solvers.computation import Computation
@@ -99,7 +100,7 @@ class FourierBasis(Carded):
 
         Chapter items: D19, U28.
         """
-        values = np.asarray(coefficients, dtype=np.float64)
+        values = as_floats(coefficients)
         if values.ndim not in (1, 2) or len(values) != self.k:
             raise DimensionError(
                 f"coefficients have the shape {values.shape} where ({self.k},) or ({self.k}, c) "
@@ -141,7 +142,7 @@ class FourierBasis(Carded):
         Cost: O(n k), twice; ``bt.filter`` needs no basis, and is often faster (l. 603).
         """
         values = as_function(f, self.n)
-        if not np.isfinite(rest):
+        if not math.isfinite(rest):
             raise BeltramiError(f"the factor of the rest must be finite, not {rest}")
         factors = evaluate(h, self.eigenvalues) if callable(h) else self._factors(h)
         coefficients = self.forward(values)
@@ -187,7 +188,7 @@ class FourierBasis(Carded):
 
     def _factors(self, h: ArrayLike) -> Floats:
         """Check given factors, (k,)."""
-        factors = np.asarray(h, dtype=np.float64)
+        factors = as_floats(h)
         if factors.shape != (self.k,):
             raise DimensionError(
                 f"a filter has the shape {factors.shape} where ({self.k},) or a function of the "

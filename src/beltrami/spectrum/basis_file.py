@@ -14,6 +14,7 @@ from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats
 from beltrami.errors import FileFormatError
+from beltrami.io.matrices import finite_floats, matrix_arrays, matrix_from
 from beltrami.io.npz import read_arrays, write_arrays
 from beltrami.solvers.computation import Computation
 
@@ -34,9 +35,7 @@ def write_basis(
         "eigenvalues": eigenvalues,
         "eigenvectors": eigenvectors,
         "residuals": residuals,
-        "mass": mass.data,
-        "mass_columns": mass.indices,
-        "mass_starts": mass.indptr,
+        **matrix_arrays("mass", mass),
         "computation": np.array(json.dumps(asdict(computation))),
     }
     write_arrays(path, KIND, VERSION, arrays)
@@ -57,33 +56,16 @@ def read_basis(
     arrays = read_arrays(path, KIND, VERSION)
     try:
         values, vectors, residuals = (
-            _floats(arrays[name]) for name in ("eigenvalues", "eigenvectors", "residuals")
+            finite_floats(arrays[name]) for name in ("eigenvalues", "eigenvectors", "residuals")
         )
         if vectors.ndim != 2 or not (values.shape == residuals.shape == vectors.shape[1:]):
             raise ValueError(f"shapes {values.shape}, {vectors.shape} and {residuals.shape}")
         if (np.diff(values) < 0).any():
             raise ValueError("eigenvalues that do not ascend")
-        mass = _mass(arrays, len(vectors))
+        mass = matrix_from(arrays, "mass", (len(vectors), len(vectors)))
         return values, vectors, mass, residuals, _computation(arrays["computation"])
     except (LookupError, TypeError, ValueError, OverflowError, RecursionError) as cause:
         raise FileFormatError(Path(path), f"expected the arrays of a basis ({cause})") from cause
-
-
-def _mass(arrays: dict[str, NDArray[Any]], n: int) -> csr_array:
-    """Return the mass; KeyError or ValueError if its arrays do not make a sorted csr matrix."""
-    data, starts, columns = _floats(arrays["mass"]), arrays["mass_starts"], arrays["mass_columns"]
-    if data.ndim != 1 or columns.shape != data.shape or starts.shape != (n + 1,):
-        raise ValueError("the mass has other shapes")
-    if starts.dtype.kind != "i" or columns.dtype.kind != "i":
-        raise ValueError("the indices of the mass are no integers")
-    steps = np.diff(starts)
-    if starts[0] != 0 or starts[-1] != len(data) or (steps < 0).any():
-        raise ValueError("the rows of the mass are out of order")
-    follows = np.diff(columns, prepend=-1) > 0
-    follows[starts[:-1][steps > 0]] = True  # the first of each row
-    if not (follows & (columns >= 0) & (columns < n)).all():
-        raise ValueError("the columns of the mass are out of order")
-    return csr_array((data, columns, starts), (n, n))
 
 
 def _computation(array: NDArray[Any]) -> Computation:
@@ -99,11 +81,3 @@ def _computation(array: NDArray[Any]) -> Computation:
         counted_within=float(given["counted_within"]),
         seconds=tuple((str(stage), float(time)) for stage, time in given["seconds"]),
     )
-
-
-def _floats(array: NDArray[Any]) -> Floats:
-    if array.dtype != np.float64:
-        raise ValueError(f"numbers of the type {array.dtype}")
-    if not np.isfinite(array).all():
-        raise ValueError("numbers that are NaN or infinite")
-    return array

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebval
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, read_only
+from beltrami._arrays import Floats, as_floats, read_only
 from beltrami.errors import ApproximationError
 from beltrami.spectrum.interval import Interval, probes
 from beltrami.spectrum.kernel import Kernel, Response, evaluate
@@ -50,7 +50,7 @@ class ChebyshevSeries:
     def __call__(self, eigenvalues: ArrayLike) -> Floats:
         """Return p(λ), in the shape of λ."""
         low, high = self.interval
-        x = np.asarray(eigenvalues, dtype=np.float64)
+        x = as_floats(eigenvalues)
         middle, half = (low + high) / 2, (high - low) / 2
         return np.asarray(chebval((x - middle) / half if half else 0 * x, self.coefficients))
 

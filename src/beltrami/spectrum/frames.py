@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, as_function, rectangular
+from beltrami._arrays import Floats, as_floats, as_function, rectangular
 from beltrami._progress import Progress
-from beltrami.errors import BeltramiError, DimensionError
+from beltrami.errors import BeltramiError, DimensionError, NonFiniteError
 from beltrami.operators.pair import Laplacian
 from beltrami.spectrum.basis import FourierBasis
 from beltrami.spectrum.chebyshev import chebyshev_series
@@ -46,7 +46,10 @@ class Frame:
 
     def power(self, eigenvalues: ArrayLike) -> Floats:
         r"""Return :math:`\sum_j g_j(\lambda)^2`, in the shape of λ."""
-        return np.asarray(sum(g(eigenvalues) ** 2 for g in self.kernels))
+        values = as_floats(eigenvalues)
+        if not np.isfinite(values).all():
+            raise NonFiniteError("eigenvalues are NaN or infinite")
+        return np.asarray(sum(g(values) ** 2 for g in self.kernels))
 
     @property
     def bounds(self) -> tuple[float, float]:

@@ -118,7 +118,7 @@ def _coefficients(
             (source, source_descriptors, left),
             (target, target_descriptors, right),
         ):
-            values = as_function(np.asarray(given), basis.n, "the descriptors")
+            values = as_function(given, basis.n, "the descriptors")
             columns = values.reshape(basis.n, -1)
             sides.append(basis.forward(columns) / math.sqrt(total_mass(basis)))
         if left[-1].shape[1] != right[-1].shape[1]:

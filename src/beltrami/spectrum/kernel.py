@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Floats, as_floats, rectangular
 from beltrami.errors import BeltramiError, DimensionError, NonFiniteError
 
 Response: TypeAlias = "Kernel | Callable[[Floats], ArrayLike]"
@@ -41,7 +41,7 @@ class Kernel:
 
     def __call__(self, eigenvalues: ArrayLike) -> Floats:
         """Return h(λ), in the shape of λ."""
-        return self._at(np.asarray(eigenvalues, dtype=np.float64))
+        return self._at(as_floats(eigenvalues))
 
     def _at(self, x: Floats) -> Floats:
         raise NotImplementedError
@@ -133,7 +133,8 @@ def evaluate(h: Response, eigenvalues: Floats) -> Floats:
     """
     if not callable(h):
         raise BeltramiError(f"h is a function of the eigenvalues, not of type {type(h).__name__}")
-    found: NDArray[Any] = np.asarray(h(eigenvalues))
+    given: Any = h(eigenvalues)
+    found: NDArray[Any] = given if isinstance(given, np.ndarray) else rectangular(given)
     if found.dtype.kind not in "biuf" or found.shape not in ((), eigenvalues.shape):
         raise DimensionError(
             f"h gave an array of type {found.dtype} and shape {found.shape} for "

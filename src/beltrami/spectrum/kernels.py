@@ -10,9 +10,10 @@ from dataclasses import dataclass
 from numbers import Real
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.special import expit
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Floats, as_floats
 from beltrami.errors import BeltramiError
 from beltrami.spectrum.kernel import Combined, Kernel
 
@@ -212,7 +213,7 @@ class BandPass(Kernel):
         return _rise(x, self.low, self.width) - _rise(x, self.high, self.width)
 
 
-def smooth_step(x: Floats) -> Floats:
+def smooth_step(x: ArrayLike) -> Floats:
     r"""Rise from 0 at x <= 0 to 1 at x >= 1 with all derivatives; s(x) + s(1 - x) = 1.
 
     :math:`s(x) = \psi(x)/(\psi(x) + \psi(1-x))` with :math:`\psi(x) = e^{-1/x}`.
@@ -222,6 +223,7 @@ def smooth_step(x: Floats) -> Floats:
     >>> smooth_step(np.array([-1.0, 0.0, 0.5, 1.0, 2.0])).tolist()
     [0.0, 0.0, 0.5, 1.0, 1.0]
     """
+    x = as_floats(x)
     inside = (x > 0) & (x < 1)
     y = np.where(inside, x, 0.5)
     with np.errstate(over="ignore"):  # 1 / 1e-320: the step is 0 there

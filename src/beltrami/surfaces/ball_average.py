@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from beltrami.surfaces.surface import ParametricSurface
 
 MEANS = ("disk", "circle")
+_LONGEST = 1e3  # geodesics, in lengths of the surface
 
 
 def ball_average_laplacian(
@@ -87,6 +88,8 @@ def ball_average_laplacian(
     check_name("mean", over, MEANS)
     if not isinstance(radius, Real) or not 0 < radius < np.inf:
         raise SurfaceError(f"the radius is {shown(radius)} where a positive number is needed")
+    if radius > _LONGEST * surface.size:
+        raise SurfaceError(f"a radius of {radius:g} is much longer than the surface")
     directions = whole("directions", directions, least=3)
     fbar = in_parameters(surface, f, of)
     a, b, shape = checks.broadcast(u, v)

@@ -18,6 +18,9 @@ test("ticks are round and inside", () => {
   assert.deepEqual(ticks(-0.5, 2, 5).map((x) => x.toFixed(1)), ["-0.5", "0.0", "0.5", "1.0", "1.5", "2.0"]);
   assert.deepEqual(ticks(3, 3), [3]);
   assert.deepEqual(decades(0.05, 200), [0.1, 1, 10, 100]);
+  assert.deepEqual(decades(0.3, 30), [1, 10]);
+  assert.deepEqual(decades(3, 30), [5, 10, 20]);
+  assert.deepEqual(decades(0.003, 0.009).map((x) => x.toFixed(3)), ["0.005"]);
   assert.ok(decades(1e-30, 1e30).length <= 6);
 });
 

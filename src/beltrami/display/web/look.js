@@ -76,7 +76,15 @@ export function pictureOf(app) {
   pen.drawImage(canvas, 0, 0);
   const ink = getComputedStyle(document.documentElement).getPropertyValue("--ink").trim();
   const width = Math.min(360, picture.width * 0.35);
+  pen.fillStyle = ink;
   app.bar.paint(pen, picture.width * 0.03, picture.height - width * 0.2, width, ink);
+  const captions = app.panel.captions ?? [];
+  pen.font = `600 ${Math.round(picture.width / 60)}px system-ui, sans-serif`;
+  pen.textAlign = "center";
+  captions.forEach((text, i) => {
+    const [left, bottom, across, up] = app.views[i].box;
+    pen.fillText(text, left + across / 2, picture.height - bottom - up + picture.width / 50);
+  });
   return picture;
 }
 

@@ -120,9 +120,16 @@ async function start() {
       },
       reset: () => app.resetCamera(),
     });
+    canvas.addEventListener("webglcontextlost", () => {
+      waiting.hidden = false;
+      waiting.textContent = "The graphics card was taken away: please load the page again.";
+    });
     new ResizeObserver(() => app.redraw()).observe(canvas);
     dark.addEventListener("change", () => app.useTheme(dark.matches));
-    open(app, app.panels[0]);
+    // page.html#wave opens with waves
+    const named = () => app.panels.find(({ id }) => location.hash === `#${id}`);
+    open(app, named() ?? app.panels[0]);
+    window.addEventListener("hashchange", () => named() && open(app, named()));
     waiting.hidden = true;
     window.beltrami = exposed(app);
   } catch (error) {

@@ -3,13 +3,20 @@
 import { checkbox, readings, slider, words } from "./controls.js";
 import { formula } from "./formula.js";
 import { Plot } from "./plot.js";
+import { lowest } from "./spectral.js";
 import { written } from "./ticks.js";
 import { signDomains } from "./domains.js";
 
 export function modesPanel(app) {
-  const state = { i: Math.min(7, app.k - 1), line: true, lift: 0 };
+  const first = app.spectrum.eigenvalues.indexOf(lowest(app.spectrum.eigenvalues));
+  const state = { i: Math.min(Math.max(first, 0) + 6, app.k - 1), line: true, lift: 0 };
   const plot = new Plot("Eigenvalues over their number");
   const told = readings();
+  const counted = new WeakMap(); // regions of the modes seen so far
+  const regions = (levels) => {
+    if (!counted.has(levels)) counted.set(levels, signDomains(levels, app.data.edges));
+    return counted.get(levels);
+  };
   const number = slider({
     id: "mode",
     label: "Eigenfunction",
@@ -78,7 +85,7 @@ export function modesPanel(app) {
       told.set("λ", app.withUnit(eigenvalues[state.i], -2));
       told.set("√λ, its frequency", app.withUnit(Math.sqrt(eigenvalues[state.i]), -1));
       const levels = app.data.levelsOf(app.spectrum)[state.i];
-      told.set("Regions of one sign", String(signDomains(levels, app.data.edges)));
+      told.set("Regions of one sign", String(regions(levels)));
       told.set("Courant: at most", String(state.i + 1));
       const curves = [{ points: [...eigenvalues].map((x, i) => [i, x]), name: "λ" }];
       if (mass !== "degree" && mass !== "unit") {

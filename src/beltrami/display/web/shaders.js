@@ -90,8 +90,10 @@ in vec3 v_position;
 in vec2 v_uv;
 in float v_value;
 out vec4 colour;
-float covered(float distance) {
-  return 1.0 - smoothstep(0.6, 1.6, abs(distance) / max(fwidth(distance), 1e-20));
+float covered(float value) {
+  float step = fwidth(value);
+  if (step < 1e-6 * (u_range.y - u_range.x)) return 0.0; // zero on a whole piece is no line
+  return 1.0 - smoothstep(0.6, 1.6, abs(value) / step);
 }
 void main() {
   vec3 n = normalize(v_normal);
@@ -110,7 +112,7 @@ void main() {
   if (u_spacing > 0.0) {
     float level = v_value / u_spacing;
     float away = abs(fract(level + 0.5) - 0.5) / max(fwidth(level), 1e-20);
-    line = max(line, 0.55 * (1.0 - smoothstep(0.4, 1.2, away)));
+    if (abs(level) > 0.5) line = max(line, 0.55 * (1.0 - smoothstep(0.4, 1.2, away)));
   }
   colour = vec4(mix(min(paint * light, 1.0), vec3(0.05, 0.05, 0.07), line), 1.0);
 }`;

@@ -34,19 +34,6 @@ export function regularizerTerms(eigenvalues, coefficients, h, outside) {
   return { far, rough };
 }
 
-// Norms of f - f_m for m = 0 ... k: what lies beyond the basis, then the last terms first.
-export function errorDecay(coefficients, outside) {
-  const k = coefficients.length;
-  const decay = new Float64Array(k + 1);
-  let sum = outside * outside;
-  decay[k] = outside;
-  for (let m = k - 1; m >= 0; m--) {
-    sum += coefficients[m] ** 2;
-    decay[m] = Math.sqrt(sum);
-  }
-  return decay;
-}
-
 // A response drawn by hand: values at places that ascend in [0, 1], linear between them.
 export function interpolated(values, place) {
   const last = values.length - 1;

@@ -34,12 +34,17 @@ export function ticks(low, high, wanted = 5) {
   return Array.from({ length: last - first + 1 }, (_, i) => (first + i) * step);
 }
 
-// Powers of ten between low and high, at most as many as wanted.
+// Powers of ten between low and high, at most as many as wanted; 1, 2, 5 times such if there are
+// fewer than two.
 export function decades(low, high, wanted = 6) {
   const first = Math.ceil(Math.log10(low) - 1e-9);
   const last = Math.floor(Math.log10(high) + 1e-9);
   const stride = Math.max(1, Math.ceil((last - first + 1) / wanted));
   const found = [];
+  if (last - first < 1) {
+    for (let e = first - 1; e <= last + 1; e++) found.push(...[1, 2, 5].map((s) => s * 10 ** e));
+    return found.filter((x) => x >= low && x <= high);
+  }
   for (let e = first; e <= last; e += stride) found.push(10 ** e);
   return found;
 }

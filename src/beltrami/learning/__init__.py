@@ -1,0 +1,1 @@
+"""Operators as arrays for networks on surfaces, kept on disk by their content."""

@@ -1,0 +1,138 @@
+import gzip
+import hashlib
+import io
+import threading
+import zipfile
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+
+import numpy as np
+import pytest
+
+from beltrami.batch.failures import TooLargeError
+from beltrami.batch.memory import BASE
+from beltrami.batch.reading import mesh_of, read_input
+from beltrami.compression.compress import compress
+from beltrami.errors import FileFormatError, UnknownNameError
+from beltrami.io.registry import write_mesh
+from beltrami.mesh.shapes import icosphere
+
+MESH = icosphere(1)
+
+
+def read(place, allowed=None):
+    return mesh_of(read_input(str(place), str(place), allowed), allowed)
+
+
+@pytest.mark.parametrize("suffix", [".ply", ".off", ".obj", ".stl", ".ply.gz", ".PLY", ".vtk"])
+def test_every_format_reads_as_from_a_file(tmp_path, suffix):
+    path = tmp_path / f"mesh{suffix}"
+    write_mesh(path, MESH)
+    given = read_input("mesh", str(path))
+    assert given.sha256 == hashlib.sha256(path.read_bytes()).hexdigest()
+    found = mesh_of(given)
+    assert found.faces.shape == MESH.faces.shape
+    assert np.abs(np.sort(found.vertices, axis=0) - np.sort(MESH.vertices, axis=0)).max() < 1e-6
+
+
+def test_compressed_meshes_are_read(tmp_path):
+    path = tmp_path / "mesh.btm"
+    compress(MESH, path)
+    assert read(path).n_faces == MESH.n_faces
+
+
+def test_gzip_of_several_members_with_padding(tmp_path):
+    path = tmp_path / "mesh.ply.gz"
+    write_mesh(tmp_path / "mesh.ply", MESH)
+    content = (tmp_path / "mesh.ply").read_bytes()
+    path.write_bytes(gzip.compress(content[:99]) + gzip.compress(content[99:]) + b"\0" * 9)
+    assert read(path).n_faces == MESH.n_faces
+
+
+@pytest.mark.parametrize("cut", [1, 9, 40])
+def test_a_damaged_gzip_file(tmp_path, cut):
+    path = tmp_path / "mesh.ply.gz"
+    path.write_bytes(gzip.compress(bytes(range(256)))[:-cut])
+    with pytest.raises(FileFormatError, match="whole gzip file"):
+        read(path)
+
+
+def test_a_bomb_is_not_unpacked(tmp_path):
+    path = tmp_path / "bomb.ply.gz"
+    with gzip.open(path, "wb", compresslevel=9) as file:
+        for _ in range(64):
+            file.write(bytes(1 << 20))
+    assert path.stat().st_size < 100_000
+    with pytest.raises(TooLargeError, match=r"reading .* MB of \.ply"):
+        read(path, BASE + 40_000_000)
+
+
+def test_a_file_that_is_too_large_is_not_read(tmp_path):
+    path = tmp_path / "huge.ply"
+    with path.open("wb") as file:
+        file.truncate(50 * 10**9)
+    with pytest.raises(TooLargeError, match=r"50000 MB of \.ply is estimated to need 200\.35 GB"):
+        read(path, 4 * 10**9)
+
+
+def test_what_is_no_mesh(tmp_path):
+    with pytest.raises(UnknownNameError):
+        read(tmp_path / "a.txt")
+    with pytest.raises(FileNotFoundError):
+        read(tmp_path / "a.ply")
+    (tmp_path / "b.ply").mkdir()
+    with pytest.raises(FileFormatError, match="found a directory"):
+        read(tmp_path / "b.ply")
+    (tmp_path / "c.ply").write_bytes(b"")
+    with pytest.raises(FileFormatError):
+        read(tmp_path / "c.ply")
+
+
+def test_a_member_of_an_archive(tmp_path):
+    write_mesh(tmp_path / "mesh.off", MESH)
+    with zipfile.ZipFile(tmp_path / "all.zip", "w") as archive:
+        archive.write(tmp_path / "mesh.off", "../../up/mesh.off")
+    found = read(f"zip://../../up/mesh.off::{tmp_path / 'all.zip'}")
+    assert found.n_faces == MESH.n_faces
+    assert sorted(path.name for path in tmp_path.rglob("*")) == ["all.zip", "mesh.off"]
+
+
+class _Serving(BaseHTTPRequestHandler):
+    content = b""
+
+    def do_HEAD(self):
+        self._answer()
+
+    def do_GET(self):
+        self._answer()
+        self.wfile.write(self.content)
+
+    def _answer(self):
+        self.send_response(200)
+        self.send_header("Content-Length", str(len(self.content)))
+        self.end_headers()
+
+    def log_message(self, *_):
+        pass
+
+
+def test_a_mesh_behind_http(tmp_path):
+    write_mesh(tmp_path / "mesh.ply", MESH)
+    serving = type("Serving", (_Serving,), {"content": (tmp_path / "mesh.ply").read_bytes()})
+    with ThreadingHTTPServer(("127.0.0.1", 0), serving) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        found = read(f"http://127.0.0.1:{server.server_port}/mesh.ply")
+        server.shutdown()
+    assert found.n_faces == MESH.n_faces
+
+
+def test_a_source_without_a_size_is_read_to_its_end(tmp_path, monkeypatch):
+    class Stream(io.BytesIO):
+        def seekable(self):
+            return False
+
+    write_mesh(tmp_path / "mesh.ply", MESH)
+    content = (tmp_path / "mesh.ply").read_bytes()
+    monkeypatch.setattr("beltrami.batch.reading._opened", lambda place: Stream(content))
+    assert read("any.ply").n_faces == MESH.n_faces
+    with pytest.raises(TooLargeError):
+        read("any.ply", BASE + 100)
