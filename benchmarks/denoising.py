@@ -1,6 +1,7 @@
 """Denoising without a parameter, against peers at the best parameter that knowing the truth finds.
 
-python -m benchmarks.denoising [mesh ...] [--seeds 3] [--output FILE]
+python -m benchmarks.denoising [mesh ...] [--seeds 3]
+python -m benchmarks.denoising --faces 1000000    the time of one large mesh alone
 
 Noise is white, along the normals, of 0.1, 0.2 and 0.3 mean edge lengths; "Fandisk0.3" is a noisy
 mesh with its truth, as published. Errors are the mean angle of the normals of the faces, in
@@ -13,19 +14,22 @@ from __future__ import annotations
 import argparse
 import os
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from benchmarks.cases import FOLDER_VARIABLE
+from benchmarks.cases import FOLDER_VARIABLE, plain, subdivided
 from benchmarks.packages import package
+from benchmarks.smoothers import peers
 
 LEVELS = (0.1, 0.2, 0.3)
 PAIR = "Fandisk0.3"
-TUNED = ("blob", "cube", "spot", "fertility", "fandisk")
-HELD_OUT = ("sphere", "torus", "camel", "bunny", "pial", "armadillo")
+TUNED = ("blob", "cube", "spot", "fertility", "fandisk", "sphere", "torus", "camel", "pial",
+         "ellipsoid")  # fmt: skip
+HELD_OUT = ("bumps", "octahedron", "can", "saddle",
+            "beetle", "face", "conte69", "bunny", "armadillo")  # fmt: skip
 FILES = {
     "spot": "spot_triangulated.obj",
     "fertility": "fertility.off",
@@ -35,14 +39,43 @@ FILES = {
     "bunny": "bun_zipper.ply",
     "pial": "pial_left.gii.gz",
     "armadillo": "armadillo.obj",
+    "beetle": "beetle.obj",
+    "face": "face.obj",
+    "conte69": "conte69_32k_lh.gii",
 }
 SHAPES: dict[str, Callable[[Any], Any]] = {
     "blob": lambda shapes: shapes.blob(8000),
     "cube": lambda shapes: shapes.cube(32),
     "sphere": lambda shapes: shapes.icosphere(5),
+    "ellipsoid": lambda shapes: _stretched(shapes.icosphere(4)),
+    "bumps": lambda shapes: _bumpy(shapes.icosphere(5)),
+    "octahedron": lambda shapes: _cut_in_four(shapes.octahedron(), 5),
+    "can": lambda shapes: shapes.cylinder(90, 40, caps=True),
+    "saddle": lambda shapes: _bent(shapes.grid(60, 60, dimension=3)),
 }
 
-Peer = tuple[str, Any, Callable[[], Any]]
+
+def _stretched(sphere: Any) -> Any:
+    return sphere.with_vertices(sphere.vertices * [1, 1.7, 0.6])
+
+
+def _cut_in_four(mesh: Any, times: int) -> Any:
+    arrays = plain(mesh)
+    for _ in range(times):
+        arrays = subdivided(*arrays)
+    return package("beltrami").Mesh(*arrays)
+
+
+def _bent(grid: Any) -> Any:
+    x, y, _ = grid.vertices.T
+    height = (x - x.mean()) ** 2 - (y - y.mean()) ** 2
+    return grid.with_vertices(np.stack([x, y, height], axis=1))
+
+
+def _bumpy(sphere: Any) -> Any:
+    x, y, z = 5 * sphere.vertices.T
+    height = np.sin(x + 1) * np.sin(y) + np.cos(y - z)
+    return sphere.with_vertices(sphere.vertices * (1 + 0.06 * height)[:, None])
 
 
 def truth_of(name: str, folder: Path) -> Any:
@@ -67,79 +100,6 @@ def errors(truth: Any, vertices: Any) -> tuple[float, float]:
     away = ((vertices - truth.vertices) ** 2).sum(axis=1)
     angle = float(np.degrees(np.arccos(cosine)).mean())
     return angle, float(np.sqrt(away.mean()) / truth.edge_lengths.mean())
-
-
-def peers(mesh: Any) -> Iterator[Peer]:
-    """Yield (filter, parameter, call) for each filter of each peer that is installed."""
-    V, F = np.array(mesh.vertices), np.array(mesh.faces)
-    for distribution, of in (("trimesh", _trimesh), ("pyvista", _pyvista),
-                             ("pymeshlab", _pymeshlab), ("igl", _igl)):  # fmt: skip
-        try:
-            library = package(distribution)
-        except ImportError:
-            print(f"{distribution} is not installed")
-            continue
-        yield from of(library, V, F)
-
-
-def _trimesh(trimesh: Any, V: Any, F: Any) -> Iterator[Peer]:
-    import trimesh.smoothing as smoothing
-
-    for name, options in (
-        ("filter_laplacian", {"volume_constraint": False}),
-        ("filter_laplacian", {"volume_constraint": True}),
-        ("filter_humphrey", {}),
-        ("filter_taubin", {}),
-    ):
-        for rounds in (1, 2, 3, 5, 10, 20, 40, 80):
-
-            def call(name: str = name, options: Any = options, rounds: int = rounds) -> Any:
-                one = trimesh.Trimesh(V.copy(), F.copy(), process=False)
-                return getattr(smoothing, name)(one, iterations=rounds, **options).vertices
-
-            yield f"trimesh.{name}", rounds, call
-
-
-def _pyvista(pyvista: Any, V: Any, F: Any) -> Iterator[Peer]:
-    data = pyvista.PolyData(V, np.c_[np.full(len(F), 3), F].ravel())
-    for band in (0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5):
-        options = {"n_iter": 20, "pass_band": band, "normalize_coordinates": True}
-        yield "pyvista.smooth_taubin", band, lambda o=options: data.smooth_taubin(**o).points
-
-
-def _pymeshlab(pymeshlab: Any, V: Any, F: Any) -> Iterator[Peer]:
-    plain, two = "apply_coord_laplacian_smoothing", "apply_coord_two_steps_smoothing"
-    fine = {"stepsmoothnum": 1, "normalthr": 30.0, "stepfitnum": 20}
-    for name, key, options, values in (
-        (plain, "stepsmoothnum", {}, (1, 2, 3, 5, 8, 14)),
-        (plain, "stepsmoothnum", {"cotangentweight": False}, (1, 2, 3, 5, 8, 14)),
-        ("apply_coord_taubin_smoothing", "stepsmoothnum", {}, (5, 10, 20, 40, 80)),
-        (two, "stepsmoothnum", {}, (1, 3, 6)),
-        (two, "stepnormalnum", fine, (3, 8, 20)),
-    ):
-        for value in values:
-            chosen = {**options, key: value}
-
-            def call(name: str = name, options: Any = chosen) -> Any:
-                meshes = pymeshlab.MeshSet()
-                meshes.add_mesh(pymeshlab.Mesh(V, F.astype(np.int32)))
-                getattr(meshes, name)(**options)
-                return meshes.current_mesh().vertex_matrix()
-
-            yield f"pymeshlab.{name.removeprefix('apply_coord_')}", value, call
-
-
-def _igl(igl: Any, V: Any, F: Any) -> Iterator[Peer]:
-    from scipy.sparse.linalg import splu
-
-    edge = np.linalg.norm(V[F] - V[np.roll(F, 1, axis=1)], axis=2).mean()
-    L, M = igl.cotmatrix(V, F), igl.massmatrix(V, F, igl.MASSMATRIX_TYPE_BARYCENTRIC)
-    for time_ in (0.03, 0.1, 0.3, 1, 3):
-        yield (
-            "igl implicit",
-            time_,
-            lambda t=time_: splu((M - t * edge**2 * L).tocsc()).solve(M @ V),
-        )
 
 
 def row(name: str, level: float, truth: Any, meshes: list[Any]) -> tuple[str, Any]:
@@ -171,12 +131,31 @@ def row(name: str, level: float, truth: Any, meshes: list[Any]) -> tuple[str, An
     return text, ratio
 
 
+def time_of(faces: int) -> None:
+    """Print the CPU time and the errors of a shape of at least so many faces."""
+    bt = package("beltrami")
+    arrays = plain(bt.shapes.blob(30_000))
+    while len(arrays[1]) < faces:
+        arrays = subdivided(*arrays)
+    truth = bt.Mesh(*arrays)
+    mesh = noisy(truth, 0.2, 0)
+    start = time.process_time()
+    found = bt.denoise(mesh)
+    seconds = time.process_time() - start
+    angle, distance = errors(truth, found.mesh.vertices)
+    print(f"{truth.n_faces} faces: {seconds:.1f} s, {angle:.2f}°, {distance:.3f}")
+
+
 def main() -> None:
     """Print the table, mesh by mesh, and the medians."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.denoising", description=__doc__)
     parser.add_argument("meshes", nargs="*", help=f"some of {PAIR}, {TUNED + HELD_OUT}")
     parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--faces", type=int, help="time a mesh of so many, and nothing else")
     asked = parser.parse_args()
+    if asked.faces:
+        time_of(asked.faces)
+        return
     folder = Path(os.environ.get(FOLDER_VARIABLE, ""))
     known = [
         name for name in (*TUNED, *HELD_OUT) if name in SHAPES or (folder / FILES[name]).exists()

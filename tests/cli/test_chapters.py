@@ -5,6 +5,7 @@ from PIL import Image
 from beltrami.cli.chapters.averaging import averaging
 from beltrami.cli.chapters.chapter import Stage
 from beltrami.cli.chapters.compression import compression
+from beltrami.cli.chapters.denoising import denoising
 from beltrami.cli.chapters.files import files
 from beltrami.cli.chapters.geodesics import geodesics
 from beltrami.cli.chapters.grid import grid as flat_grid
@@ -13,8 +14,12 @@ from beltrami.cli.chapters.interactive import interactive
 from beltrami.cli.chapters.operators import operators
 from beltrami.cli.chapters.spectrum import spectrum
 from beltrami.cli.chapters.surface import surface
+from beltrami.cli.chapters.waves import waves
 from beltrami.compression.compress import vertex_order
 from beltrami.compression.decompress import decompress
+from beltrami.diffusion.bumps import gaussian_bumps
+from beltrami.diffusion.denoise import denoise
+from beltrami.diffusion.wave import wave
 from beltrami.io.registry import read_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import grid, icosphere
@@ -38,17 +43,9 @@ MESHES = {
     ),
 }
 CHAPTERS = (
-    interactive,
-    surface,
-    operators,
-    averaging,
-    flat_grid,
-    heat,
-    spectrum,
-    compression,
-    geodesics,
-    files,
-)
+    interactive, surface, operators, averaging, flat_grid, heat, denoising, waves, spectrum,
+    compression, geodesics, files,
+)  # fmt: skip
 
 
 def stage(mesh, folder):
@@ -81,6 +78,48 @@ def test_heat_tells_the_numbers_of_its_states(tmp_path):
     assert [row[3] for row in chapter.rows[1:]] == ["1.000000000000"] * 4
     state = read_mesh(tmp_path / "heat.ply").vertex_data["heat"]
     assert chapter.rows[3][2] == f"{state.max():.4g}"
+
+
+def test_waves_tell_what_leapfrog_gives_and_keep_their_mean(tmp_path):
+    chapter = waves(stage(icosphere(3), tmp_path))
+    mesh, pair = icosphere(3), laplacian(icosphere(3))
+    bump = int(np.linalg.norm(mesh.vertices - mesh.vertices.mean(axis=0), axis=1).argmax())
+    hollow = int(np.linalg.norm(mesh.vertices - mesh.vertices[bump], axis=1).argmax())
+    start = gaussian_bumps(mesh, [bump, hollow], 0.05 * mesh.area**0.5, [1.0, -1.0])
+    last = 0.5 * mesh.area**0.5
+    states = [state for _, state in wave(pair, start, None, np.linspace(0, last, 6))]
+    for row, state in zip(chapter.rows[1:], states, strict=True):
+        assert row[1] == f"{state.min():.4g}"
+        assert float(row[3]) == pytest.approx(pair.masses @ start, abs=1e-6)
+    with Image.open(tmp_path / "waves.webp") as film:
+        assert film.n_frames == 16
+
+
+@pytest.mark.parametrize("factor", [1, 1e-6])
+def test_waves_on_slivers_take_few_steps(tmp_path, factor):
+    plane = grid(9, 9, dimension=3)
+    mesh = plane.with_vertices(plane.vertices * [1, factor, 1])  # bound of the steps: a millionth
+    text = " ".join(waves(stage(mesh, tmp_path)).text)
+    assert ("They were taken" in text) == (factor == 1)
+    assert ("implicit" in text) == (factor != 1)
+
+
+@pytest.mark.chapter("P43")
+def test_denoising_is_better_than_heat_at_its_best_time(tmp_path):
+    mesh = icosphere(4)
+    chapter = denoising(stage(mesh, tmp_path))
+    rows = {row[0]: (float(row[1]), float(row[2][:-1])) for row in chapter.rows[1:]}
+    before, heated, after = rows["with noise"], rows["heat, best time"], rows["denoise"]
+    assert before[0] == pytest.approx(0.2, rel=0.05)
+    assert after[0] < 0.5 * heated[0] < 0.5 * before[0]
+    assert after[1] < 0.5 * heated[1] < 0.5 * before[1]
+    noisy, clean = (read_mesh(tmp_path / name) for name in ("noisy.ply", "denoised.ply"))
+    assert rows["with noise"][0] == pytest.approx(
+        np.sqrt(((noisy.vertices - mesh.vertices) ** 2).sum(axis=1).mean())
+        / mesh.edge_lengths.mean(),
+        abs=1e-3,
+    )
+    assert np.array_equal(denoise(noisy).mesh.vertices, clean.vertices)
 
 
 def test_the_volume_of_an_open_mesh_is_not_told(tmp_path):

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from beltrami.diffusion.candidates import LINEAR, Bench, Linear, OfNormals, along_normals, filtered
+from beltrami.diffusion.candidates import Bench, OfNormals, along_normals, filtered
 from beltrami.diffusion.denoise import denoise
+from beltrami.diffusion.linear_filters import LINEAR, Linear, low_passed, rows_by_length
 from beltrami.diffusion.noise import noise_level
-from beltrami.diffusion.patches import sample_of
+from beltrami.diffusion.patches import components_of, part_of, sample_of
 from beltrami.diffusion.risk import best_mixture, mixture_risk
 from beltrami.diffusion.smooth_mesh import smooth_mesh
 from beltrami.errors import (
@@ -127,19 +128,18 @@ class TestRisk:
         rng = np.random.default_rng(seed)
         moves = rng.normal(size=(6, 40)) * rng.uniform(0.1, 3, (6, 1))
         gram, divergence = moves @ moves.T / 40, rng.uniform(0, 1, 6)
-        penalty = np.diag(rng.uniform(0, 1, 6))
-        best = best_mixture(gram, divergence, 0.8, penalty)
+        best = best_mixture(gram, divergence, 0.8)
         assert best.min() >= 0
         assert best.sum() == pytest.approx(1)
 
         def cost(w):
-            return mixture_risk(w, gram, divergence, 0.8) + w @ penalty @ w
+            return mixture_risk(w, gram, divergence, 0.8)
 
         for other in rng.dirichlet(np.full(6, 0.3), 500):
             assert cost(other) >= cost(best) - 1e-6
 
     def test_candidates_that_do_nothing(self):
-        weights = best_mixture(np.zeros((3, 3)), np.ones(3), 1.0, np.zeros((3, 3)))
+        weights = best_mixture(np.zeros((3, 3)), np.ones(3), 1.0)
         assert weights == pytest.approx([1 / 3] * 3)
 
 
@@ -149,11 +149,28 @@ class TestCandidates:
         A = mesh.topology.adjacency.toarray()
         k, U = np.linalg.eig(np.eye(len(A)) - A / A.sum(axis=1)[:, None])
         bench = Bench.of(mesh)
-        for one in (LINEAR[0], LINEAR[8], LINEAR[12], Linear(3.0, 2)):
-            gain = 1 / (1 + one.time * k.real**one.order)
+        for one in (LINEAR[0], LINEAR[4], LINEAR[7], Linear(0.3)):
+            gain = 1 / (1 + (k.real.clip(0) / one.cut) ** 10)
             moved = ((U * gain) @ np.linalg.solve(U, mesh.vertices)).real
             expected = along_normals(mesh, moved)
-            assert np.allclose(filtered(mesh, bench, [one])[0], expected, atol=3e-3 * np.ptp(moved))
+            found = filtered(mesh, bench, [one])[0]
+            assert np.allclose(found, expected, atol=3e-3)
+
+    def test_weights_by_length_against_the_matrix(self):
+        mesh, _ = noisy(shapes.torus(20, 12), 0.2)
+        lengths = mesh.edge_lengths
+        W = np.zeros((mesh.n_vertices, mesh.n_vertices))
+        W[tuple(mesh.edges.T)] = 1 / lengths
+        W += W.T
+        k, U = np.linalg.eig(np.eye(len(W)) - W / W.sum(axis=1)[:, None])
+        rows = rows_by_length(mesh)
+        for cut in (0.5, 0.1):
+            gain = 1 / (1 + (k.real.clip(0) / cut) ** 4)
+            expected = ((U * gain) @ np.linalg.solve(U, mesh.vertices)).real
+            found = low_passed(rows, mesh.vertices, Linear(cut, True))
+            assert np.allclose(found, expected, atol=3e-3 * np.ptp(expected))
+        flat = Mesh(np.zeros((3, 3)), [[0, 1, 2]])  # no lengths: equal weights
+        assert rows_by_length(flat).data.tolist() == [0.5] * 6
 
     def test_those_of_normals_are_the_methods_of_smooth_mesh(self):
         mesh, _ = noisy(CUBE, 0.2)
@@ -177,15 +194,51 @@ class TestCandidates:
 
 
 def test_samples_are_patches_of_the_mesh():
-    sample, vertices = sample_of(BLOB, 1600)
-    assert 0.6 * 1600 < sample.n_faces <= 1600
-    assert np.array_equal(sample.vertices, BLOB.vertices[vertices])
+    sample = sample_of(BLOB, 1600)
+    assert 0.6 * 1600 < sample.mesh.n_faces <= 1600
+    assert np.array_equal(sample.mesh.vertices, BLOB.vertices[sample.vertices])
     whole = {tuple(face) for face in BLOB.faces.tolist()}
-    assert {tuple(face) for face in vertices[sample.faces].tolist()} <= whole
-    assert sample.topology.n_components <= 8
-    same, everything = sample_of(BLOB, 10**6)
-    assert same is BLOB
-    assert np.array_equal(everything, np.arange(BLOB.n_vertices))
+    assert {tuple(face) for face in sample.vertices[sample.mesh.faces].tolist()} <= whole
+    assert sample.mesh.topology.n_components <= 8
+    sample = sample_of(shapes.icosphere(5), 8000)  # its core has no border of the sample
+    assert 0.7 < sample.core.mean() < 0.9
+    assert not sample.core[np.unique(sample.mesh.topology.boundary_edges)].any()
+    whole = sample_of(BLOB, 10**6)
+    assert whole.mesh is BLOB
+    assert np.array_equal(whole.vertices, np.arange(BLOB.n_vertices))
+    assert whole.core.all()
+
+
+def test_components_and_their_meshes():
+    one, two = shapes.icosphere(2), shapes.icosphere(1)
+    n = two.n_vertices
+    mesh = Mesh(  # small, large, a stray vertex, and small again
+        np.concatenate([two.vertices, one.vertices + 5, [[9, 9, 9]], two.vertices - 5]),
+        np.concatenate([two.faces, one.faces + n, two.faces + n + one.n_vertices + 1]),
+    )
+    large, rest = components_of(mesh, 100, 8)
+    assert np.array_equal(large, np.arange(n, n + one.n_vertices))
+    assert np.array_equal(np.sort(np.concatenate([large, rest])), np.arange(mesh.n_vertices))
+    part = part_of(mesh, large)
+    assert np.array_equal(part.faces, one.faces)
+    assert np.array_equal(part.vertices, one.vertices + 5)
+    assert [len(part) for part in components_of(mesh, 10, 2)] == [one.n_vertices, n, n + 1]
+    assert [len(part) for part in components_of(mesh, 1000, 8)] == [mesh.n_vertices]
+
+
+@pytest.mark.parametrize("level", [0.1, 0.3])
+def test_where_the_shape_is_smooth_the_level_is_found_better(level):
+    """Sharp low passes leave the same residual for many cuts, and this tells the level."""
+    truth = shapes.torus(60, 30)
+    meshes = [noisy(truth, level, seed)[0] for seed in range(6)]
+    found = [(denoise(mesh, "linear"), rms(mesh, truth)) for mesh in meshes]
+    better = np.array([one.sigma / sigma - 1 for one, sigma in found])
+    first = np.array([one.noise.sigma / sigma - 1 for one, sigma in found])
+    assert np.abs(better).max() < 0.015
+    assert np.sqrt(np.mean(better**2)) < 0.75 * np.sqrt(np.mean(first**2))
+    assert denoise(meshes[0], "linear", noise=1e-3).sigma == 1e-3
+    detailed = denoise(noisy(CUBE, level)[0], "linear")
+    assert detailed.sigma == detailed.noise.sigma
 
 
 @pytest.mark.chapter("P43")
@@ -201,6 +254,23 @@ def test_the_blind_choice_is_near_the_best_of_linear_filters_and_of_sweeps(level
     assert found.predicted_error == pytest.approx(rms(found.mesh, BLOB), rel=0.3)
     assert not found.warnings
     assert found.volume_change == pytest.approx(found.mesh.volume / mesh.volume - 1, abs=1e-15)
+
+
+def test_normals_of_smooth_shapes_are_as_even_as_by_the_best_averaging():
+    """Averages even out the normals and shrink; here nothing shrinks, and the normals are as good.
+
+    With mixtures chosen for σ as it is, or a second one for less than its chance, the angle is
+    two to four times as large.
+    """
+    sphere = shapes.icosphere(4)
+    truth = sphere.with_vertices(sphere.vertices * [1, 1.7, 0.6])
+    mesh, _ = noisy(truth, 0.2, seed=2)
+    found = denoise(mesh)
+    swept = [smooth_mesh(mesh, steps=k) for k in (5, 10, 20, 40, 80)]
+    assert angle(found.mesh, truth) < 1.1 * min(angle(one, truth) for one in swept)
+    assert rms(found.mesh, truth) < 0.25 * min(rms(one, truth) for one in swept)
+    assert all("linear" in name for name, _ in found.mixture)
+    assert {name for name, _ in found.second} <= {"as it is", "along normals"}
 
 
 @pytest.mark.chapter("P45")
@@ -278,7 +348,41 @@ class TestScans:
         plain = smooth_mesh(mesh, steps=5).vertices[rim] - truth.vertices[rim]
         assert np.linalg.norm(drift, axis=1).mean() < 0.3 * np.linalg.norm(plain, axis=1).mean()
 
-    def test_components_strays_and_several_faces_on_an_edge(self):
+    def test_each_component_has_its_own_noise(self):
+        truth = shapes.icosphere(4)
+        rough, sigma = noisy(truth, 0.3)
+        fine, small = noisy(truth, 0.05, seed=1)
+        n = truth.n_vertices
+        two = Mesh(
+            np.concatenate([fine.vertices, rough.vertices + 9]),
+            np.concatenate([truth.faces, truth.faces + n]),
+        )
+        found = denoise(two, "linear")
+        assert [part.sigma for part in found.parts] == pytest.approx([small, sigma], rel=0.1)
+        for part, one, shift in zip(found.parts, (fine, rough), (0, 9), strict=True):
+            alone = denoise(one, "linear")
+            moved = found.mesh.vertices[part.vertices] - shift
+            assert np.allclose(moved, alone.mesh.vertices, atol=1e-9)
+            assert [name for name, _ in part.mixture] == [name for name, _ in alone.mixture]
+            assert part.predicted_error == pytest.approx(alone.predicted_error, rel=1e-6)
+        square = np.mean([part.predicted_error**2 for part in found.parts])
+        assert found.predicted_error == pytest.approx(np.sqrt(square))
+
+    def test_warnings_name_the_component(self):
+        truth = shapes.icosphere(4)
+        n = truth.n_vertices
+        white, strong = noisy(truth, 0.2)[0], noisy(truth, 0.7)[0]
+        found = denoise(
+            Mesh(
+                np.concatenate([white.vertices, strong.vertices + 9]),
+                np.concatenate([truth.faces, truth.faces + n]),
+            ),
+            "linear",
+        )
+        assert len(found.warnings) == 1
+        assert found.warnings[0].startswith(f"part 1, {n} vertices: the noise is very strong")
+
+    def test_small_components_strays_and_several_faces_on_an_edge(self):
         truth = shapes.icosphere(3)
         one, _ = noisy(truth, 0.2)
         n = one.n_vertices
@@ -287,9 +391,10 @@ class TestScans:
             np.concatenate([one.faces, one.faces + n, [[*one.edges[7], 2 * n + 1]]]),
         )
         found = denoise(two)
+        assert len(found.parts) == 1
         assert np.array_equal(found.mesh.vertices[2 * n], two.vertices[2 * n])
         for part in (found.mesh.vertices[:n], found.mesh.vertices[n : 2 * n] - 9):
-            assert rms(truth.with_vertices(part), truth) < 0.7 * rms(one, truth)
+            assert rms(truth.with_vertices(part), truth) < 0.6 * rms(one, truth)
 
     @pytest.mark.parametrize("faces", [1, 4])
     def test_few_faces(self, faces):
@@ -319,12 +424,12 @@ class TestScans:
 def test_progress_is_told():
     told = []
     denoise(noisy(shapes.icosphere(2), 0.2)[0], progress=lambda done, total: told.append(done))
-    assert told == [1, 3, 4]
+    assert told == [1, 2]
 
 
 @pytest.mark.parametrize("noise", [1e3, 1e12, 1e100])
 def test_noise_that_is_larger_than_the_mesh_is_a_number_too(noise):
     found = denoise(shapes.icosphere(1), noise=noise)
     assert np.isfinite(found.mesh.vertices).all()
-    weights = best_mixture(np.diag([0.0, 1e-24]), np.array([1.0, 0.5]), noise, np.zeros((2, 2)))
+    weights = best_mixture(np.diag([0.0, 1e-24]), np.array([1.0, 0.5]), noise)
     assert weights == pytest.approx([0, 1])  # the one that keeps less of the noise

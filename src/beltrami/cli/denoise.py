@@ -70,18 +70,36 @@ def _report(output: Path, before: Mesh, found: Denoised) -> None:
     edge = float(before.edge_lengths.mean())
     moved = np.linalg.norm(found.mesh.vertices - before.vertices, axis=1)
     typer.echo(f"wrote {output}: {found.mesh!r}")
-    typer.echo(f"noise: {found.sigma:.4g} along the normals, {found.sigma / edge:.3f} mean edges")
-    for name, mixture in (("filters", found.mixture), ("then", found.second)):
-        if mixture:
-            parts = [f"{100 * weight:.0f} % {text}" for text, weight in mixture]
-            typer.echo(f"{name}: " + "; ".join(parts))
+    for i, part in enumerate(found.parts):
+        if len(found.parts) > 1:
+            typer.echo(f"part {i}, {len(part.vertices)} vertices:")
+        typer.echo(f"noise: {part.sigma:.4g} along the normals, {part.sigma / edge:.3f} mean edges")
+        for name, mixture in (("filters", part.mixture), ("then", part.second)):
+            if mixture:
+                shares = [f"{100 * weight:.0f} % {text}" for text, weight in mixture]
+                typer.echo(f"{name}: " + "; ".join(shares))
     typer.echo(
         f"error expected: {found.predicted_error:.3g} ({found.predicted_error / edge:.3f} mean "
         f"edges); vertices moved by {float(np.sqrt((moved**2).mean())):.3g}"
     )
+    bends = [_bend(one) for one in (before, found.mesh)]
+    typer.echo(f"mean angle of neighbouring faces: {bends[0]:.1f}° before, {bends[1]:.1f}° now")
     if not math.isnan(found.volume_change):
         typer.echo(f"volume: {100 * found.volume_change:+.3f} %")
     _warn(found.warnings)
+
+
+def _bend(mesh: Mesh) -> float:
+    """Return the mean angle between the normals of faces that share an edge, in degrees."""
+    import numpy as np
+
+    twins = mesh.topology.twins.ravel()
+    sides = np.flatnonzero(twins > np.arange(len(twins)))
+    if not len(sides):
+        return 0.0
+    normals = mesh.face_normals
+    cosines = np.einsum("ij,ij->i", normals[sides // 3], normals[twins[sides] // 3])
+    return float(np.degrees(np.arccos(np.clip(cosines, -1, 1))).mean())
 
 
 def _report_function(output: Path, found: DenoisedFunction) -> None:

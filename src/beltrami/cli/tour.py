@@ -80,6 +80,7 @@ def _play(stage: Stage) -> list[Chapter]:
     from beltrami.cli.chapters.averaging import averaging
     from beltrami.cli.chapters.chapter import Chapter
     from beltrami.cli.chapters.compression import compression
+    from beltrami.cli.chapters.denoising import denoising
     from beltrami.cli.chapters.files import files
     from beltrami.cli.chapters.geodesics import geodesics
     from beltrami.cli.chapters.grid import grid
@@ -89,9 +90,11 @@ def _play(stage: Stage) -> list[Chapter]:
     from beltrami.cli.chapters.operators import operators
     from beltrami.cli.chapters.spectrum import spectrum
     from beltrami.cli.chapters.surface import surface
+    from beltrami.cli.chapters.waves import waves
 
     acts: tuple[Callable[[Stage], Chapter], ...] = (
-        interactive, surface, operators, averaging, grid, heat, spectrum, compression, maps,
+        interactive, surface, operators, averaging, grid, heat, denoising, waves, spectrum,
+        compression, maps,
         geodesics, files,
     )  # fmt: skip
     played = []

@@ -2,38 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-from numpy.polynomial import Chebyshev
 
 from beltrami._arrays import Floats
 from beltrami.diffusion.face_rings import FaceRings, face_rings
+from beltrami.diffusion.linear_filters import (
+    Linear,
+    equal_rows,
+    low_passed,
+    rows_by_length,
+)
 from beltrami.diffusion.normal_filters import filtered_normals
 from beltrami.diffusion.normal_variation import normals_of_small_variation
-from beltrami.diffusion.smoothing import shares_of
 from beltrami.diffusion.vertex_update import fit_to_normals
-from beltrami.diffusion.windowed_sinc import filter_rows
 from beltrami.errors import BeltramiError
 from beltrami.mesh.mesh import Mesh
-from beltrami.solvers.locality import LocalRows, local_rows
+from beltrami.solvers.locality import LocalRows
 
 _VARIATION_ROUNDS = 100
-_TAIL = 1e-4  # of the gain, that the cut series of a linear filter may leave out
-_DEGREE = 160  # at most
-
-
-@dataclass(frozen=True)
-class Linear:
-    """The gain 1/(1 + t k^p) of the frequencies k of Id - W̃, along the normals."""
-
-    time: float
-    order: int
-
-    def __str__(self) -> str:
-        return f"linear 1/(1 + {self.time:.3g} k^{self.order})"
+_EVENING = Linear(0.5)  # leaves normals that tell the directions of the noise
 
 
 @dataclass(frozen=True)
@@ -63,11 +54,6 @@ class OfVariation:
 
 Filter: TypeAlias = Linear | OfNormals | OfVariation
 
-LINEAR: tuple[Filter, ...] = tuple(
-    Linear(float(time), order)
-    for order in (2, 3)
-    for time in np.geomspace(0.03, 1000, 12) ** (order / 2)
-)
 OF_NORMALS: tuple[Filter, ...] = (
     *(OfNormals(False, c, k) for c in (0.25, 0.4, 0.6, 0.9) for k in (3, 6, 12, 24)),
     *(OfNormals(True, c, k) for c in (0.2, 0.3, 0.45, 0.7) for k in (3, 6, 12, 24)),
@@ -84,18 +70,29 @@ SECOND: tuple[Filter, ...] = tuple(
 
 @dataclass(frozen=True, eq=False)
 class Bench:
-    """What all filters of one topology share: the rows of W̃ and the rings of the faces."""
+    """What the filters of a mesh and of slightly changed copies share.
+
+    Attributes
+    ----------
+    rows, rows_by_length
+        Of W̃, with equal weights and with those by the lengths of the evened mesh.
+    rings
+        Of the faces.
+    normals
+        (n, 3), of the vertices of the evened mesh: directions of the noise.
+    """
 
     rows: LocalRows
+    rows_by_length: LocalRows
     rings: FaceRings
+    normals: Floats
 
     @classmethod
     def of(cls, mesh: Mesh) -> Bench:
         """Prepare it; vertices of no face are left alone."""
-        A = mesh.topology.adjacency
-        alone = np.diff(A.indptr) == 0
-        rows = local_rows(A.indptr, A.indices, shares_of(A), alone)
-        return cls(rows, face_rings(mesh.topology))
+        rows = equal_rows(mesh)
+        evened = mesh.with_vertices(low_passed(rows, mesh.vertices, _EVENING))
+        return cls(rows, rows_by_length(evened), face_rings(mesh.topology), evened.vertex_normals)
 
 
 def along_normals(mesh: Mesh, moved: Floats) -> Floats:
@@ -106,12 +103,6 @@ def along_normals(mesh: Mesh, moved: Floats) -> Floats:
     normals = mesh.with_vertices(moved).vertex_normals
     way = np.einsum("ij,ij->i", moved - mesh.vertices, normals)
     return np.asarray(mesh.vertices + way[:, None] * normals)
-
-
-def smooth_normals(mesh: Mesh, bench: Bench) -> Floats:
-    """(n, 3) normals of the mesh after a linear filter of medium strength."""
-    moved = filter_rows(bench.rows, mesh.vertices, _series(_low_pass(3.0, 2)))
-    return mesh.with_vertices(moved).vertex_normals
 
 
 def filtered(
@@ -127,10 +118,8 @@ def filtered(
     found = []
     for one in filters:
         if isinstance(one, Linear):
-            moved = filter_rows(
-                bench.rows, from_here.vertices, _series(_low_pass(one.time, one.order))
-            )
-            found.append(along_normals(mesh, moved))
+            rows = bench.rows_by_length if one.by_length else bench.rows
+            found.append(along_normals(mesh, low_passed(rows, from_here.vertices, one)))
         elif isinstance(one, OfVariation):
             found.append(_of_variation(from_here, one.fidelity))
         else:
@@ -166,15 +155,3 @@ def _of_variation(mesh: Mesh, fidelity: float) -> Floats:
     except BeltramiError:  # evened out to nothing
         return mesh.vertices
     return fit_to_normals(mesh.topology, mesh.vertices, normals, held)
-
-
-def _low_pass(time: float, order: int) -> Callable[[Floats], Floats]:
-    return lambda k: 1 / (1 + time * k**order)
-
-
-def _series(gain: Callable[[Floats], Floats]) -> Floats:
-    """Return c with gain(k) near Σ c_i T_i(1 - k) on 0 <= k <= 2, and equal at 0."""
-    c = np.asarray(Chebyshev.interpolate(lambda x: gain(1 - x), _DEGREE).coef, np.float64)
-    tails = np.cumsum(np.abs(c[::-1]))[::-1]
-    c = c[: max(2, int(np.count_nonzero(tails > _TAIL)))]
-    return np.asarray(c * (float(gain(np.zeros(1))[0]) / c.sum()))

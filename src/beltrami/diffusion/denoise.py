@@ -3,53 +3,44 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeVar
 
 import numpy as np
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Integers
 from beltrami._carded import Carded
 from beltrami._progress import Progress
-from beltrami.diffusion.candidates import (
-    LINEAR,
-    OF_NORMALS,
-    SECOND,
-    Bench,
-    Filter,
-    along_normals,
-    filtered,
-    smooth_normals,
+from beltrami.diffusion.candidates import SECOND, Bench
+from beltrami.diffusion.choice import (
+    ALONG_NORMALS,
+    AS_IT_IS,
+    Choice,
+    apply,
+    choose,
+    named,
 )
 from beltrami.diffusion.noise import NoiseLevel, noise_level
-from beltrami.diffusion.patches import sample_of
-from beltrami.diffusion.risk import best_mixture, mixture_risk
-from beltrami.diffusion.smoothing import average
+from beltrami.diffusion.patches import components_of, part_of, sample_of
 from beltrami.diffusion.vertex_update import require_agreeing_normals
 from beltrami.errors import BeltramiError, check_name
 from beltrami.mesh.mesh import Mesh
 
 DENOISING_METHODS = ("auto", "linear")
-_SAMPLE = 40_000  # faces on which the mixture is chosen
+_SAMPLE = 40_000  # faces on which mixtures are chosen, all parts together
+_LEAST_SAMPLE = 8_000  # of one part
+_PARTS = 8  # at most, with a choice of their own
+_OWN = 1_000  # vertices of a component below which it has no choice of its own
 _SMALL = 200  # vertices below which only linear filters are trusted
-_PROBE = 0.1  # size of the probe that measures divergences, in σ
-_PROBED = 16_000  # vertices that are probed, at least, by probing small meshes several times
-_MOST_PROBES = 4
-_SEED = 20_110
-_ROUGHNESS = (0.3, 1.0, 2.0)  # weights of the roughness beside the risk
-_SLACK = 1.03  # the smoother mixture is taken if its risk is no larger than by this factor
-_LEAST = 0.005  # weights below this are left out
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Denoised(Carded):
-    """A denoised mesh, and what was found and done.
+class DenoisedPart:
+    """What was found and done in one component, or in all the smaller ones together.
 
     Attributes
     ----------
-    mesh
-        The result; the topology is the same.
+    vertices
+        Their numbers.
     noise
         What was found of the noise.
     sigma
@@ -60,32 +51,82 @@ class Denoised(Carded):
     predicted_error
         Root mean square distance of the vertices from the truth that is expected (Stein), in the
         unit of length.
-    volume_change
-        Relative; NaN if the mesh has a boundary.
-    warnings
-        Why the result may be worse than predicted; only linear filters were used then.
     """
 
-    mesh: Mesh
+    vertices: Integers
     noise: NoiseLevel
     sigma: float
     mixture: tuple[tuple[str, float], ...]
     second: tuple[tuple[str, float], ...]
     predicted_error: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Denoised(Carded):
+    """A denoised mesh, and what was found and done.
+
+    Attributes
+    ----------
+    mesh
+        The result; the topology is the same.
+    parts
+        What was found and done in each component, the largest first; small ones are one part.
+    noise, sigma, mixture, second
+        Of the largest: see ``DenoisedPart``.
+    predicted_error
+        Root mean square distance of the vertices from the truth that is expected (Stein), in the
+        unit of length.
+    volume_change
+        Relative; NaN if the mesh has a boundary.
+    warnings
+        Why the result may be worse than predicted; only linear filters were used there.
+    """
+
+    mesh: Mesh
+    parts: tuple[DenoisedPart, ...]
     volume_change: float
-    warnings: tuple[str, ...]
+
+    @property
+    def noise(self) -> NoiseLevel:
+        """What was found of the noise of the largest part."""
+        return self.parts[0].noise
+
+    @property
+    def sigma(self) -> float:
+        """Its level."""
+        return self.parts[0].sigma
+
+    @property
+    def mixture(self) -> tuple[tuple[str, float], ...]:
+        """Its first mixture."""
+        return self.parts[0].mixture
+
+    @property
+    def second(self) -> tuple[tuple[str, float], ...]:
+        """Its second mixture."""
+        return self.parts[0].second
+
+    @property
+    def predicted_error(self) -> float:
+        """Over all vertices of parts."""
+        sizes = [len(part.vertices) for part in self.parts]
+        squares = [part.predicted_error**2 for part in self.parts]
+        return math.sqrt(float(np.average(squares, weights=sizes)))
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Of all parts, told apart where there are several."""
+        if len(self.parts) == 1:
+            return self.noise.warnings
+        return tuple(
+            f"part {i}, {len(part.vertices)} vertices: {text}"
+            for i, part in enumerate(self.parts)
+            for text in part.noise.warnings
+        )
 
     def __repr__(self) -> str:
         main = self.mixture[0][0] if self.mixture else "nothing to do"
         return f"<Denoised: σ = {self.sigma:.3g}, mostly {main}>"
-
-
-@dataclass(frozen=True, eq=False)
-class _Choice:
-    filters: tuple[Filter, ...]
-    first: Floats
-    second: Floats
-    risk: float
 
 
 def denoise(
@@ -97,12 +138,13 @@ def denoise(
 ) -> Denoised:
     r"""Remove the noise of a mesh; how much there is, and how, is found from the mesh.
 
-    The level of the noise is measured along the normals (``noise_level``). Then 63 filters are
-    tried: linear ones, bilateral and guided filters of the normals, and normals of small total
+    The level of the noise is measured along the normals (``noise_level``), and once more, if the
+    shape is smooth, by what low passes of many strengths remove alike. Then 71 filters are
+    tried: low passes, bilateral and guided filters of the normals, and normals of small total
     variation, of many strengths; and mixed with those weights that make Stein's unbiased estimate
     of the error least. The result is filtered once more, by normals, if that lowers the estimate.
-    The first displacements are along the normals, so that little shrinks or slides; the estimate
-    counts what the second ones move sideways as error.
+    The displacements of low passes are along the normals, so that little shrinks or slides; the
+    estimate counts what the other filters move sideways as error.
 
     Chapter items: P15, P42, P43, P45.
 
@@ -132,12 +174,18 @@ def denoise(
 
     Notes
     -----
-    On more than 40,000 faces the mixture is chosen on eight patches; below 200 vertices it is of
-    linear filters alone. The divergences in Stein's estimate are measured by one to four small
-    random changes of the input, from a fixed seed (Ramani, Blu and Unser 2008), so the same mesh
-    gives the same result. Each mixture is chosen with a small
-    penalty on roughness, and the second with the largest one that costs less than 3 % of risk:
-    so normals, which ask for more smoothing than positions, are served too.
+    On more than 40,000 faces the mixtures are chosen on patches, eight of each component; below 200
+    vertices they are of linear filters alone. The divergences in Stein's estimate are measured by
+    one or two small random changes of the input, from a fixed seed (Ramani, Blu and Unser 2008),
+    so the same mesh gives the same result. The mixtures are chosen as if σ were 15 % larger: to
+    take some shape for noise costs little, but what is left of the noise spoils the normals; and
+    the chosen mixture fits the noise it was chosen on. The ``predicted_error`` is for σ as it is,
+    and at least σ times the divergence for each vertex, the least that a linear filter leaves.
+    Filters of normals, and the second mixture, are left out where what they gain may be chance.
+
+    Components of at least 1000 vertices, the eight largest, have a noise level and mixtures of
+    their own; the others are denoised as one. Borders are nothing special: displacements along the
+    normals keep them in place. Where several faces meet at an edge, all are neighbours.
 
     References: Stein 1981; Luisier, Blu and Unser 2007; Zheng et al. 2011; Zhang et al. 2015.
 
@@ -158,114 +206,49 @@ def denoise(
     if noise is not None and not (math.isfinite(noise) and noise >= 0):
         raise BeltramiError(f"the noise must be finite and >= 0, not {noise}")
     require_agreeing_normals(mesh)
-    tell = progress or (lambda _done, _total: None)
-    bench = Bench.of(mesh)
-    normals = smooth_normals(mesh, bench)
-    found = noise_level(
-        mesh.topology.adjacency, mesh.vertices, float(mesh.edge_lengths.mean()), normals
-    )
-    sigma = noise if noise is not None else found.spread if found.warnings else found.sigma
+    moved = np.array(mesh.vertices)
+    components = components_of(mesh, _OWN, _PARTS)
+    size = max(_SAMPLE // len(components), _LEAST_SAMPLE)
+    parts = []
+    for i, vertices in enumerate(components):
+        part = mesh if len(components) == 1 else part_of(mesh, vertices)
+        if part.n_faces:
+            bench = Bench.of(part)
+            found, choice = _choice(part, bench, noise, method == "linear", size)
+            if progress is not None:
+                progress(2 * i + 1, 2 * len(components))
+            moved[vertices] = apply(part, bench, choice)
+            parts.append(_told(vertices, found, choice))
+        if progress is not None:
+            progress(2 * i + 2, 2 * len(components))
+    result = mesh.with_vertices(moved) if any(part.sigma for part in parts) else mesh
+    change = result.volume / mesh.volume - 1 if mesh.is_closed else math.nan
+    return Denoised(result, tuple(parts), change)
+
+
+def _choice(
+    mesh: Mesh, bench: Bench, noise: float | None, linear: bool, size: int
+) -> tuple[NoiseLevel, Choice]:
+    """Measure the noise, and choose on a sample of about ``size`` faces; safely, if it is odd."""
+    edge = float(mesh.edge_lengths.mean())
+    found = noise_level(mesh.topology.adjacency, mesh.vertices, edge, bench.normals)
+    odd = bool(found.warnings)
+    sigma = noise if noise is not None else found.spread if odd else found.sigma
     if sigma == 0:
-        unchanged = 0.0 if mesh.is_closed else math.nan
-        return Denoised(mesh, found, 0.0, (), (), 0.0, unchanged, found.warnings)
-    tell(1, 4)
-    plain = method == "linear" or bool(found.warnings) or mesh.n_vertices < _SMALL
-    sample, vertices = sample_of(mesh, _SAMPLE)
-    choice = _choose(sample, sigma, normals[vertices], plain)
-    tell(3, 4)
-    moved = _applied(mesh, bench, choice)
-    result = mesh.with_vertices(moved)
-    tell(4, 4)
-    return Denoised(
-        result,
+        return found, Choice(0.0, (), np.zeros(0), np.zeros(0), 0.0)
+    sample = sample_of(mesh, size)
+    plain = linear or odd or mesh.n_vertices < _SMALL
+    known = noise is not None or odd
+    normals = bench.normals[sample.vertices]
+    return found, choose(sample, float(sigma), normals, known=known, plain=plain)
+
+
+def _told(vertices: Integers, found: NoiseLevel, choice: Choice) -> DenoisedPart:
+    return DenoisedPart(
+        vertices,
         found,
-        float(sigma),
-        _named(choice.filters, choice.first),
-        _named(SECOND, choice.second[1:]),
-        math.sqrt(max(choice.risk, 0.0)),
-        result.volume / mesh.volume - 1 if mesh.is_closed else math.nan,
-        found.warnings,
+        choice.sigma,
+        named(choice.filters, choice.first),
+        named((AS_IT_IS, ALONG_NORMALS, *SECOND), choice.second),
+        math.sqrt(choice.risk),
     )
-
-
-def _choose(mesh: Mesh, sigma: float, normals: Floats, plain: bool) -> _Choice:
-    """Choose both mixtures on a mesh, by the same filters on slightly changed copies."""
-    bench = Bench.of(mesh)
-    n = mesh.n_vertices
-    random = np.random.default_rng(_SEED)
-    probes = [
-        _PROBE * sigma * random.choice([-1.0, 1.0], n)[:, None] * normals
-        for _ in range(min(_MOST_PROBES, math.ceil(_PROBED / n)))
-    ]
-    others = [mesh.with_vertices(mesh.vertices + probe) for probe in probes]
-
-    def mixtures(here: list[Floats], there: list[list[Floats]]) -> list[tuple[Floats, float]]:
-        """Return the best mixtures, smoother and smoother, with their risks."""
-        moves = np.stack([(x - mesh.vertices).ravel() for x in here])
-        gram = moves @ moves.T / n
-        change = np.array(
-            [
-                [np.vdot(y - x, probe) for x, y in zip(here, changed, strict=True)]
-                for changed, probe in zip(there, probes, strict=True)
-            ]
-        )
-        divergence = change.mean(axis=0) / (_PROBE * sigma) ** 2 / n
-        rough = np.stack([(x - average(bench.rows, x, np.ones(1))).ravel() for x in here])
-        penalty = rough @ rough.T / n
-        tried = [best_mixture(gram, divergence, sigma, weight * penalty) for weight in _ROUGHNESS]
-        return [(w, mixture_risk(w, gram, divergence, sigma)) for w in tried]
-
-    filters = LINEAR if plain else (*LINEAR, *OF_NORMALS)
-    here = filtered(mesh, bench, filters)
-    there = [filtered(other, bench, filters) for other in others]
-    tried = mixtures(here, there)
-    if plain:
-        first, risk = _smoothest(tried)
-        return _Choice(filters, first, np.ones(1), risk)
-    first, _ = tried[0]
-    x = along_normals(mesh, _mixed(first, here))
-    here = [x, *filtered(mesh, bench, SECOND, x)]
-    for i, other in enumerate(others):
-        y = along_normals(other, _mixed(first, there[i]))
-        there[i] = [y, *filtered(other, bench, SECOND, y)]
-    second, risk = _smoothest(mixtures(here, there))
-    return _Choice(filters, first, second, risk)
-
-
-def _smoothest(tried: list[tuple[Floats, float]]) -> tuple[Floats, float]:
-    """Return the last mixture whose risk is hardly larger than that of the first."""
-    limit = _SLACK * tried[0][1]
-    return next((one for one in reversed(tried) if one[1] <= limit), tried[0])
-
-
-def _mixed(weights: Floats, positions: list[Floats]) -> Floats:
-    total = np.zeros_like(positions[0])
-    for weight, x in zip(weights, positions, strict=True):
-        total += weight * x
-    return total
-
-
-def _applied(mesh: Mesh, bench: Bench, choice: _Choice) -> Floats:
-    """Apply the mixtures to the whole mesh, without the filters of hardly any weight."""
-    filters, weights = _heaviest(choice.filters, choice.first)
-    x = along_normals(mesh, _mixed(weights, filtered(mesh, bench, filters)))
-    seconds, weights = _heaviest((None, *SECOND), choice.second)
-    chosen = [one for one in seconds if one is not None]
-    moved = filtered(mesh, bench, chosen, x)
-    if len(chosen) < len(seconds):
-        moved.insert(seconds.index(None), x)
-    return _mixed(weights, moved)
-
-
-T = TypeVar("T")
-
-
-def _heaviest(filters: Sequence[T], weights: Floats) -> tuple[list[T], Floats]:
-    kept = np.flatnonzero(weights >= _LEAST)
-    chosen = weights[kept]
-    return [filters[int(i)] for i in kept], np.asarray(chosen / chosen.sum())
-
-
-def _named(filters: Sequence[Filter], weights: Floats) -> tuple[tuple[str, float], ...]:
-    order = [i for i in np.argsort(-weights, kind="stable") if weights[i] >= _LEAST]
-    return tuple((str(filters[i]), float(weights[i])) for i in order)

@@ -155,7 +155,7 @@ def _mixed(
     """Mix what the filters made of one column, which comes first; say how, and the error."""
     moves = filtered - filtered[0]
     gram = moves @ moves.T / filtered.shape[1]
-    weights = best_mixture(gram, traces, sigma, np.zeros_like(gram))
+    weights = best_mixture(gram, traces, sigma)
     order = np.argsort(-weights, kind="stable")
     mixture = tuple((names[int(i)], float(weights[i])) for i in order if weights[i] > _LEAST)
     error = math.sqrt(max(mixture_risk(weights, gram, traces, sigma), 0.0))

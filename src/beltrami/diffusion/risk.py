@@ -29,34 +29,30 @@ def mixture_risk(weights: Floats, gram: Floats, divergence: Floats, sigma: float
     return float(weights @ gram @ weights - sigma**2 + 2 * sigma**2 * weights @ divergence)
 
 
-def best_mixture(gram: Floats, divergence: Floats, sigma: float, penalty: Floats) -> Floats:
+def best_mixture(gram: Floats, divergence: Floats, sigma: float) -> Floats:
     r"""Return weights w >= 0 that add to 1 and make the risk of :math:`\sum w_j x_j` least.
 
     The risk of a mixture is quadratic in w,
     :math:`w^T G w - \sigma^2 + 2\sigma^2\, \mathrm{div} \cdot w` (Luisier, Blu and Unser 2007, for
     shrinkage of wavelets), so that the best mixture is found and not searched for. It is no worse
-    than the best candidate by this estimate. To it ``penalty`` adds w' R w.
+    than the best candidate by this estimate.
 
     Parameters
     ----------
     gram, divergence, sigma
         As ``mixture_risk``.
-    penalty
-        (c, c) positive semi-definite R.
 
     Examples
     --------
-    >>> G, R = np.diag([0.0, 1.0]), np.zeros((2, 2))  # keep the data, or flatten everything
-    >>> best_mixture(G, np.array([1.0, 0.0]), 0.5, R).round(3).tolist()
+    >>> G = np.diag([0.0, 1.0])  # keep the data, or flatten everything
+    >>> best_mixture(G, np.array([1.0, 0.0]), 0.5).round(3).tolist()
     [0.75, 0.25]
     """
     c = len(divergence)
-    A = gram + penalty
-    size = float(np.trace(A)) / c
+    size = float(np.trace(gram)) / c
     if size == 0:  # no candidate moves anything
         return np.full(c, 1 / c)
-    A = A / size
-    factor = np.linalg.cholesky(A + _RIDGE * np.eye(c))
+    factor = np.linalg.cholesky(gram / size + _RIDGE * np.eye(c))
     slope = sigma**2 / size * divergence
     slope *= min(1.0, _STEEP / max(float(np.abs(slope).max()), 1.0))
     target = np.linalg.solve(factor, -slope)

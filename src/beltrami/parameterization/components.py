@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from beltrami._arrays import Booleans, Floats, Integers, read_only
 from beltrami.errors import MeshError
@@ -41,7 +40,7 @@ class Request:
     weights: tuple[str | Weigher, ...]  # the next ones only where those before give a bad map
     boundary: Curve
     spacing: str
-    corners: ArrayLike | None
+    corners: Integers | None
     bulge: float
     seams: int
     cut: bool
@@ -97,8 +96,8 @@ def _solved(part: Mesh, number: Integers, asked: Request) -> Step:
     corners = None
     if asked.corners is not None:
         place = {int(v): q for q, v in enumerate(number)}
-        wanted = np.asarray(asked.corners).ravel().tolist()
-        corners = np.array([place.get(int(v), -1) for v in wanted])
+        found = [place.get(v, -1) for v in asked.corners.tolist()]
+        corners = np.array(found, dtype=np.int64)
     if asked.method == "spectral_conformal":
         return assess(part, spectral_conformal(part))
     if asked.method == "least_squares_conformal":

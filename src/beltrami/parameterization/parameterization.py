@@ -8,11 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-<<<<<<< HEAD
-from beltrami._arrays import Floats, Integers, as_floats, as_function, as_indices, read_only
-=======
 from beltrami._arrays import Floats, Integers, as_function, as_indices, read_only, rectangular
->>>>>>> conformal
 from beltrami._carded import Carded
 from beltrami.errors import DimensionError, FoldedMapError
 from beltrami.mesh.cut import Cut
@@ -119,11 +115,6 @@ class Parameterization(Carded):
         >>> psi.image(faces[:1], inside[:1]).round(12).tolist(), int(faces[1])
         ([[0.25, 0.5]], -1)
         """
-<<<<<<< HEAD
-        given = as_floats(points)
-        x = as_map(given, len(given) if given.ndim else 0)
-        return locate(self.uv[self.mesh.faces], x)
-=======
         given = np.atleast_1d(rectangular(points))
         return self._locator.locate(as_map(given, len(given)))
 
@@ -196,7 +187,6 @@ class Parameterization(Carded):
         np.add.at(total, self.vertex_map, values)
         copies = np.bincount(self.vertex_map, minlength=len(total))
         return np.asarray((total.T / copies).T)
->>>>>>> conformal
 
     @cached_property
     def textured(self) -> Mesh:

@@ -5,11 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-<<<<<<< HEAD
-from beltrami._arrays import Booleans, Floats, Integers, as_indices, read_only
-=======
 from beltrami._arrays import Floats, as_indices
->>>>>>> conformal
 from beltrami.errors import MeshError, NotADiskError, check_name
 from beltrami.mesh.cut import Cut
 from beltrami.mesh.door import require_mesh
@@ -29,26 +25,7 @@ _DEFAULTS: dict[str, tuple[str | Weigher, ...]] = {
     "tutte": ("mean_value",),
     "free": ("clamped", "mean_value", "combinatorial"),
 }
-<<<<<<< HEAD
-_BAD = 50.0  # symmetric Dirichlet energy above which other weights are tried
-_RELAXATIONS = 50  # steps of it, at most
-_RESCUES = 8  # seams to be tried where a map folds
-_WORTH = 0.95  # a seam is kept if it lowers the distortion to this part
-
-
-@dataclass(frozen=True)
-class _Request:
-    """What was asked for, to map each component alike."""
-
-    method: str
-    weights: tuple[str | Weigher, ...]  # the next ones only where those before give a bad map
-    boundary: Curve
-    spacing: str
-    corners: Integers | None
-    bulge: float
-=======
 _WORDS = {"auto": "relaxed from", "tutte": "Tutte,", "free": "free boundary, from"}
->>>>>>> conformal
 
 
 def parameterize(
@@ -158,37 +135,16 @@ def parameterize(
         refuse_unreferenced(mesh.topology)
     if seams < 0:
         raise MeshError(f"the number of seams cannot be {seams}")
-<<<<<<< HEAD
-    if check_name("treatment of holes", holes, HOLES) == "fill":
-        filled = fill_holes(mesh)
-        psi = parameterize(
-            filled.mesh,
-            method,
-            weights,
-            boundary,
-            spacing=spacing,
-            corners=corners,
-            bulge=bulge,
-            cut=cut,
-            seams=seams,
-            strict=strict,
-        )
-        return without_fillings(psi, mesh, filled, strict=strict)
-    kinds: tuple[str | Weigher, ...] = (weights,) if weights is not None else _DEFAULTS[method]
-    current = cut_to_disk(mesh) if cut else _as_it_is(mesh)
-    places = None if corners is None else as_indices(corners, current.mesh.n_vertices, "corners")
-    asked = _Request(method, kinds, boundary, spacing, places, bulge)
-=======
     if method in CONFORMAL:
         _refuse_what_is_not_used(mesh, method, weights, boundary, corners, bulge)
     kinds = _DEFAULTS.get(method, ()) if weights is None else (weights,)
-    asked = Request(method, kinds, boundary, spacing, corners, bulge, seams, cut, draw=strict)
     filled = fill_holes(mesh) if check_name("treatment of holes", holes, HOLES) == "fill" else None
     if filled is not None and filled.mesh.n_faces == mesh.n_faces:
         filled = None
     given = mesh if filled is None else filled.mesh
     current = cut_to_disk(given) if cut else _as_it_is(given)
->>>>>>> conformal
+    places = None if corners is None else as_indices(corners, current.mesh.n_vertices, "corners")
+    asked = Request(method, kinds, boundary, spacing, places, bulge, seams, cut, draw=strict)
     labels = current.mesh.components()
     uv, drawn = np.zeros((current.mesh.n_vertices, 2)), 0
     for component in range(int(labels.max()) + 1):
@@ -261,86 +217,3 @@ def _as_it_is(mesh: Mesh) -> Cut:
             remedy="Allow it with cut=True, or cut it yourself.",
         )
     return found
-<<<<<<< HEAD
-
-
-def _mapped(
-    current: Cut, uv: Floats, faces: Booleans, asked: _Request, seams: int, *, rescue: bool
-) -> tuple[Cut, Floats]:
-    """Map one component; return the mesh with the seams that it needed, and all positions."""
-    part, number = part_of(current.mesh, faces)
-    best = _solved(part, number, asked)
-    tries = 0
-    while True:
-        folded = best.flips > 0 and rescue and asked.method != "tutte"
-        if tries >= (max(_RESCUES, seams) if folded else seams):
-            break
-        tries += 1
-        found = []
-        for seam in _seams(part, best):
-            longer = _extended(current, number[seam])
-            pieces = part_of(longer.mesh, faces)
-            found.append((_solved(*pieces, asked), longer, *pieces))
-        if not found:
-            break
-        step, longer, new_part, new_number = min(found, key=lambda one: one[0].rank)
-        better = (step.flips, step.rank[1]) < (best.flips, _WORTH * best.rank[1])
-        if not better and not folded:
-            break
-        current, part, number, best = longer, new_part, new_number, step
-    added = current.mesh.n_vertices - len(uv)
-    uv = np.concatenate([uv, np.zeros((added, 2))])
-    uv[number] = relax(part, best.uv, _RELAXATIONS)[0] if asked.method == "free" else best.uv
-    return current, uv
-
-
-def _solved(part: Mesh, number: Integers, asked: _Request) -> Step:
-    """Map a disk."""
-    loop = part.topology.boundary_loops[0]
-    corners = asked.corners
-    if corners is not None:
-        place = {int(v): q for q, v in enumerate(number)}
-        corners = np.array([place.get(v, -1) for v in corners.tolist()], dtype=np.int64)
-    placed = place_boundary(
-        part, loop, asked.boundary, spacing=asked.spacing, corners=corners, bulge=asked.bulge
-    )
-    if not (isinstance(asked.boundary, str) and asked.boundary == "circle"):
-        refuse_dividing_edges(part, loop, placed)
-    steps: list[Step] = []
-    for kind in asked.weights:
-        W = edge_weights(part, kind)
-        if asked.method == "tutte":
-            steps.append(assess(part, solve_harmonic(W, loop, placed, part.vertices)))
-        else:
-            steps.append(reweighted(part, W, loop, placed, _STEPS)[0])
-        if steps[-1].rank <= (0, _BAD):
-            break
-    return min(steps, key=lambda step: step.rank)
-
-
-def _seams(part: Mesh, step: Step) -> list[Integers]:
-    """Return paths of vertices from the boundary: to the farthest vertex, and to the worst face."""
-    loop = part.topology.boundary_loops[0]
-    distance, before = shortest_paths(part, loop)
-    worst = part.faces[int(step.distortion.energy.argmax())]
-    targets = [int(distance.argmax()), int(worst[distance[worst].argmax()])]
-    paths = []
-    for path in ([target] for target in targets):
-        while before[path[-1]] >= 0:
-            path.append(int(before[path[-1]]))
-        if len(path) > 1:
-            paths.append(np.array(path, np.int64))
-    return paths
-
-
-def _extended(current: Cut, path: Integers) -> Cut:
-    """Cut along a path of vertices too."""
-    mesh = current.mesh
-    chosen = np.zeros(mesh.topology.n_edges, np.bool_)
-    chosen[edges_between(mesh.topology, path[1:], path[:-1])] = True
-    longer = cut_along(mesh, chosen)
-    chain = current.vertex_map
-    edges = np.concatenate([current.edges, np.sort(chain[longer.edges], axis=1)])
-    return replace(longer, vertex_map=read_only(chain[longer.vertex_map]), edges=read_only(edges))
-=======
->>>>>>> conformal

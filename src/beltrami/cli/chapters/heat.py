@@ -6,14 +6,13 @@ import numpy as np
 
 from beltrami._arrays import Floats
 from beltrami.cli.chapters.chapter import Chapter, Figure, Stage, number
+from beltrami.cli.chapters.denoising import distance
+from beltrami.cli.chapters.noise import with_noise
 from beltrami.diffusion.heat import heat as diffuse
 from beltrami.diffusion.smooth_mesh import smooth_mesh
 from beltrami.io.registry import write_mesh
-from beltrami.mesh.mesh import Mesh
 from beltrami.operators.laplacian import laplacian
 from beltrami.operators.pair import Laplacian
-
-SEED = 871_204_663
 
 
 def heat(stage: Stage) -> Chapter:
@@ -78,12 +77,10 @@ def _denoising(stage: Stage) -> tuple[Figure, ...]:
     if mesh.dimension != 3:
         return ()
     step = float(mesh.edge_lengths.mean())
-    rng = np.random.default_rng(SEED)
-    noise = rng.normal(scale=0.3 * step, size=(mesh.n_vertices, 1)) * mesh.vertex_normals
-    noisy = mesh.with_vertices(mesh.vertices + noise)
+    noisy = with_noise(mesh, 0.3)
     times = [step**2 * factor for factor in (0.3, 1, 10)]
     cleaned = [smooth_mesh(noisy, "implicit", time=time, steps=1) for time in times]
-    errors = [_error(mesh, one) / step for one in (noisy, *cleaned)]
+    errors = [distance(mesh, one) / step for one in (noisy, *cleaned)]
     names = ["noisy", *(f"t = {number(time)}" for time in times)]
     captions = [f"{name}, error {error:.3f}" for name, error in zip(names, errors, strict=True)]
     return (
@@ -98,8 +95,3 @@ def _denoising(stage: Stage) -> tuple[Figure, ...]:
             camera="common",
         ),
     )
-
-
-def _error(clean: Mesh, other: Mesh) -> float:
-    """Root of the mean squared distance of the vertices."""
-    return float(np.sqrt(((clean.vertices - other.vertices) ** 2).sum(axis=1).mean()))

@@ -1,0 +1,198 @@
+"""How to filter a mesh: the mixtures of filters with the least estimate of the error."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+
+from beltrami._arrays import Booleans, Floats
+from beltrami.diffusion.candidates import (
+    OF_NORMALS,
+    SECOND,
+    Bench,
+    Filter,
+    along_normals,
+    filtered,
+)
+from beltrami.diffusion.linear_filters import LINEAR
+from beltrami.diffusion.patches import Sample
+from beltrami.diffusion.risk import best_mixture, mixture_risk
+from beltrami.mesh.mesh import Mesh
+
+_PROBE = 0.3  # size of the probe that measures divergences, in σ
+_PROBED = 16_000  # vertices that are probed, at least, by probing small meshes twice
+_MOST_PROBES = 2
+_SEED = 20_110
+_SAME = 0.005  # relative change of a level from cut to cut, twice
+_MANY = 10_000  # vertices; of fewer, changes are larger by chance
+_NEAR = 0.15  # relative change of the level by that at most
+_CAUTION = 1.15  # of σ: see the notes of denoise
+_SURE = 2.0  # standard deviations that are no chance
+_SURE_ON_SMOOTH = 4.0  # where there seems to be nothing that low passes cannot do
+_LEAST = 0.005  # weights below this are left out
+AS_IT_IS, ALONG_NORMALS = "as it is", "along normals"  # the first mixture, seconded by itself
+
+
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """Weights of the filters of the mesh, of those of the result, and the risk that is left.
+
+    ``second`` has two weights more than ``SECOND``, for the result as it is, and with only what is
+    along the normals of its displacements. The risk is the estimated mean square error, for noise
+    of the level sigma.
+    """
+
+    sigma: float
+    filters: tuple[Filter, ...]
+    first: Floats
+    second: Floats
+    risk: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Trial:
+    """A mesh, where it counts, and changes of it of the mean square ``square``."""
+
+    mesh: Mesh
+    core: Booleans
+    probes: list[Floats]
+    square: float
+
+    def mixture(
+        self, here: list[Floats], there: list[list[Floats]], sigma: float, simple: int, sure: float
+    ) -> tuple[Floats, float]:
+        """Return the best mixture of the positions ``here``, and its risk.
+
+        ``there`` is what they are for the changed copies. Unless the mixture of all is better by
+        ``sure`` times what may be chance, the best one of the first ``simple`` is taken: to the
+        difference of two risks the noise adds something of the standard deviation 2σ |x - y|/n.
+        """
+        core, n = self.core, int(self.core.sum())
+        moves = np.stack([(x - self.mesh.vertices)[core].ravel() for x in here])
+        change = [
+            [np.vdot((y - x)[core], probe[core]) for x, y in zip(here, moved, strict=True)]
+            for moved, probe in zip(there, self.probes, strict=True)
+        ]
+        gram = moves @ moves.T / n
+        divergence = np.mean(change, axis=0) / self.square / n
+        cautious = _CAUTION * sigma
+        weights = best_mixture(gram, divergence, cautious)
+        plain = np.zeros_like(weights)
+        plain[:simple] = best_mixture(gram[:simple, :simple], divergence[:simple], cautious)
+        costs = [mixture_risk(w, gram, divergence, cautious) for w in (weights, plain)]
+        apart = math.sqrt(max(float((weights - plain) @ gram @ (weights - plain)), 0.0))
+        if costs[1] - costs[0] < sure * 2 * sigma * apart / math.sqrt(n):
+            weights = plain
+        risk = mixture_risk(weights, gram, divergence, sigma)
+        # the noise that is left is at least what a filter of this divergence must leave
+        return weights, max(risk, (sigma * float(weights @ divergence)) ** 2)
+
+    def level(self, here: list[Floats], there: list[list[Floats]], sigma: float) -> float | None:
+        """Return the level of what low passes remove, if it is the same for a range of cuts.
+
+        The most even place of the longest such range counts; None, if there is none near σ.
+
+        What a low pass H removes is (Id - H) of the noise, and of the shape: that the level of
+        this noise does not change from cut to cut says that nothing is removed of the shape, and
+        then no estimate uses the data better. On shapes with details there is no such range.
+        """
+        core = self.core
+        removed = [((x - self.mesh.vertices)[core] ** 2).sum() for x in here]
+        of_probe = [
+            [((y - x - probe)[core] ** 2).sum() for x, y in zip(here, moved, strict=True)]
+            for moved, probe in zip(there, self.probes, strict=True)
+        ]
+        shares = np.mean(of_probe, axis=0) / self.square
+        if not min(removed) > 0 or not shares.min() > 0:
+            return None
+        levels = np.sqrt(np.array(removed) / shares)
+        change = np.abs(np.diff(np.log(levels)))
+        worst = np.maximum(change[1:], change[:-1])
+        worst[np.abs(np.log(levels[1:-1] / sigma)) > _NEAR] = np.inf
+        alike = worst < _SAME * max(1.0, math.sqrt(_MANY / core.sum()))
+        ends = np.flatnonzero(np.diff(np.concatenate([[False], alike, [False]])))
+        if not len(ends):
+            return None
+        begin, end = max(ends.reshape(-1, 2).tolist(), key=lambda run: run[1] - run[0])
+        return float(levels[begin + 1 + worst[begin:end].argmin()])
+
+
+def choose(
+    sample: Sample, sigma: float, normals: Floats, *, known: bool = True, plain: bool = False
+) -> Choice:
+    """Choose both mixtures for noise of the level σ along ``normals``, on a sample.
+
+    If σ is not ``known``, a better one may be found; if ``plain``, linear filters alone, and no
+    second mixture.
+    """
+    mesh = sample.mesh
+    bench = Bench.of(mesh)
+    n = mesh.n_vertices
+    random = np.random.default_rng(_SEED)
+    probes = [
+        _PROBE * sigma * random.choice([-1.0, 1.0], n)[:, None] * normals
+        for _ in range(min(_MOST_PROBES, math.ceil(_PROBED / n)))
+    ]
+    others = [mesh.with_vertices(mesh.vertices + probe) for probe in probes]
+    filters: tuple[Filter, ...] = LINEAR if plain else (*LINEAR, *OF_NORMALS)
+    here = filtered(mesh, bench, filters)
+    there = [filtered(other, bench, filters) for other in others]
+    trial = _Trial(mesh, sample.core, probes, (_PROBE * sigma) ** 2)
+    k = sum(not one.by_length for one in LINEAR)
+    level = trial.level(here[1:k], [moved[1:k] for moved in there], sigma)
+    sure = _SURE if level is None else _SURE_ON_SMOOTH
+    sigma = sigma if known or level is None else level
+    first, risk = trial.mixture(here, there, sigma, len(LINEAR), sure)
+    if plain:
+        return Choice(sigma, filters, first, np.zeros(0), risk)
+    here = _seconds(mesh, bench, _mixed(first, here))
+    there = [_seconds(one, bench, _mixed(first, x)) for one, x in zip(others, there, strict=True)]
+    second, risk = trial.mixture(here, there, sigma, 2, sure)
+    return Choice(sigma, filters, first, second, risk)
+
+
+def _seconds(mesh: Mesh, bench: Bench, x: Floats) -> list[Floats]:
+    return [x, along_normals(mesh, x), *filtered(mesh, bench, SECOND, x)]
+
+
+def apply(mesh: Mesh, bench: Bench, choice: Choice) -> Floats:
+    """Apply the mixtures, without the filters of hardly any weight; nothing, if none was chosen."""
+    if not choice.filters:
+        return mesh.vertices
+    filters, weights = _heaviest(choice.filters, choice.first)
+    x = _mixed(weights, filtered(mesh, bench, filters))
+    if not len(choice.second):
+        return x
+    seconds, weights = _heaviest((AS_IT_IS, ALONG_NORMALS, *SECOND), choice.second)
+    moved = filtered(mesh, bench, [one for one in seconds if not isinstance(one, str)], x)
+    if ALONG_NORMALS in seconds:
+        moved.insert(0, along_normals(mesh, x))
+    if AS_IT_IS in seconds:
+        moved.insert(0, x)
+    return _mixed(weights, moved)
+
+
+def _mixed(weights: Floats, positions: list[Floats]) -> Floats:
+    total = np.zeros_like(positions[0])
+    for weight, x in zip(weights, positions, strict=True):
+        total += weight * x
+    return total
+
+
+T = TypeVar("T")
+
+
+def _heaviest(filters: Sequence[T], weights: Floats) -> tuple[list[T], Floats]:
+    kept = np.flatnonzero(weights >= _LEAST)
+    chosen = weights[kept]
+    return [filters[int(i)] for i in kept], np.asarray(chosen / chosen.sum())
+
+
+def named(filters: Sequence[Filter | str], weights: Floats) -> tuple[tuple[str, float], ...]:
+    """Return (name, weight) of the filters that are applied, the heaviest first."""
+    order = [i for i in np.argsort(-weights, kind="stable") if weights[i] >= _LEAST]
+    return tuple((str(filters[i]), float(weights[i])) for i in order)

@@ -1,0 +1,78 @@
+"""Low passes: the linear filters that denoise mixes, as series of W̃."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.polynomial import Chebyshev
+
+from beltrami._arrays import Floats
+from beltrami.diffusion.smoothing import shares_of
+from beltrami.diffusion.windowed_sinc import filter_rows
+from beltrami.mesh.edge_matrix import symmetric_matrix
+from beltrami.mesh.mesh import Mesh
+from beltrami.solvers.locality import LocalRows, local_rows
+
+_TAIL = 1e-3  # of the gain, that the cut series may leave out
+_DEGREE = 500  # at most
+_ORDERS = {False: 10, True: 4}  # p, with equal weights and with weights by lengths
+_CUTS = np.geomspace(2, 0.004, 16)
+_SHORTEST = 1e-3  # mean lengths: edges below it weigh no more
+
+
+@dataclass(frozen=True)
+class Linear:
+    """The gain 1/(1 + (k/cut)^p) of the frequencies 0 <= k <= 2 of Id - W̃.
+
+    W̃ averages over the neighbours, with equal weights, p = 10, or, ``by_length``, with weights
+    1/length, p = 4. So sharp a low pass spares what is below the cut; mixtures make others.
+    """
+
+    cut: float
+    by_length: bool = False
+
+    def gain(self, k: Floats) -> Floats:
+        """Return the gain at the frequencies k."""
+        return np.asarray(1 / (1 + (np.maximum(k, 0) / self.cut) ** _ORDERS[self.by_length]))
+
+    def __str__(self) -> str:
+        weights = ", weights by length" if self.by_length else ""
+        return f"linear, frequencies below {self.cut:.2g}{weights}"
+
+
+LINEAR = tuple(Linear(float(cut), by_length) for by_length in (False, True) for cut in _CUTS)
+
+
+def low_passed(rows: LocalRows, x: Floats, one: Linear) -> Floats:
+    """Filter the columns of x (n, 3); ``rows`` are those of the W̃ of the filter.
+
+    Cost: O(degree n), degree about 25 / √cut.
+    """
+    return filter_rows(rows, x, np.array(_series(one)))
+
+
+@cache
+def _series(one: Linear) -> Sequence[float]:
+    """Return c with gain(k) near Σ c_i T_i(1 - k) on 0 <= k <= 2, and equal at 0."""
+    c = np.asarray(Chebyshev.interpolate(lambda x: one.gain(1 - x), _DEGREE).coef, np.float64)
+    tails = np.cumsum(np.abs(c[::-1]))[::-1]
+    c = c[: max(2, int(np.count_nonzero(tails > _TAIL)))]
+    return tuple((c / c.sum()).tolist())
+
+
+def equal_rows(mesh: Mesh) -> LocalRows:
+    """W̃ with equal weights; vertices of no face are left alone."""
+    A = mesh.topology.adjacency
+    return local_rows(A.indptr, A.indices, shares_of(A), np.diff(A.indptr) == 0)
+
+
+def rows_by_length(mesh: Mesh) -> LocalRows:
+    """W̃ with the weights 1/length: what is near has more to say."""
+    lengths = mesh.edge_lengths
+    floor = _SHORTEST * float(lengths.mean()) if len(lengths) else 0.0
+    weights = 1 / np.maximum(lengths, floor) if floor > 0 else np.ones(len(lengths))
+    W = symmetric_matrix(mesh.edges, weights, mesh.n_vertices)
+    return local_rows(W.indptr, W.indices, shares_of(W), np.diff(W.indptr) == 0)
