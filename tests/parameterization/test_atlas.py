@@ -113,6 +113,45 @@ def test_a_flat_square_is_one_chart_without_distortion():
     np.testing.assert_allclose(found.distortion.symmetric_dirichlet, 1, atol=1e-4)
 
 
+def test_charts_may_have_the_holes_of_the_surface():
+    mesh = grid(12, 12, dimension=3)
+    kept = ~np.isin(mesh.faces, [30, 80, 100]).any(axis=1)
+    used, local = np.unique(mesh.faces[kept], return_inverse=True)
+    pierced = Mesh(mesh.vertices[used], local.reshape(-1, 3))
+    whole = atlas(pierced, size=256)
+    assert (whole.count, len(whole.seams)) == (1, 0)
+    assert len(whole.map.mesh.boundary_loops) == 4
+    assert whole.is_bijective
+    np.testing.assert_allclose(whole.distortion.symmetric_dirichlet, 1, atol=1e-3)
+    cut = atlas(pierced, size=256, holes="cut")
+    assert cut.is_bijective
+    assert len(cut.map.mesh.boundary_loops) == cut.count > 1
+
+
+def test_parts_that_only_a_filled_hole_joins_are_charts_of_their_own():
+    """A ring of two faces' width cut by its cells: no chart is in two pieces."""
+    found = atlas(cylinder(24, 2, height=0.1), 5, size=256)
+    opened = found.map.mesh
+    pairs = np.unique(np.stack([opened.components("edges"), found.labels], axis=1), axis=0)
+    assert len(pairs) == found.count
+    assert found.is_bijective
+
+
+def test_no_chart_comes_near_itself_but_at_a_seam():
+    """What lies within the padding of a point of the boundary is near it on the surface, too."""
+    mesh = torus(24, 16)
+    found = atlas(mesh, size=128, padding=3)
+    edges = found.map.mesh.topology.boundary_edges
+    uv, x = (
+        (1 - t) * values[edges[:, 0]] + t * values[edges[:, 1]]
+        for t in (0.5,)
+        for values in (found.map.uv, found.map.mesh.vertices)
+    )
+    near = np.linalg.norm(uv[:, None] - uv[None], axis=2) < 5 / 128
+    far = np.linalg.norm(x[:, None] - x[None], axis=2) * found.density[0] > 30
+    assert not (near & far).any()
+
+
 def test_points_of_the_square_find_their_way_back():
     mesh = SURFACES["blob"]
     found = of("blob")
@@ -161,12 +200,14 @@ def test_bad_input_is_told():
         atlas(ball, size=3)
     with pytest.raises(MeshError, match="padding is -1"):
         atlas(ball, padding=-1)
-    with pytest.raises(MeshError, match="the number of cells is 0"):
+    with pytest.raises(MeshError, match="the number of charts is 0"):
         atlas(ball, 0)
     with pytest.raises(UnknownNameError):
         atlas(ball, method="fre")
     with pytest.raises(UnknownNameError):
         atlas(ball, cells="nearest")
+    with pytest.raises(UnknownNameError):
+        atlas(ball, holes="filled")
     with pytest.raises(MeshError, match="seams"):
         atlas(ball, seams=-1)
     x, faces = moebius(np.random.default_rng(0), 12)

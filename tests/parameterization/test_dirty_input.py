@@ -11,6 +11,7 @@ import strategies
 from beltrami.errors import BeltramiError
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.tree_cotree import cut_to_disk
+from beltrami.parameterization.atlas import atlas
 from beltrami.parameterization.certificate import certify
 from beltrami.parameterization.flatten import flatten
 from beltrami.parameterization.parameterize import METHODS, parameterize
@@ -31,6 +32,7 @@ CALLS = {
     **{method: lambda mesh, method=method: parameterize(mesh, method) for method in METHODS},
     "square": lambda mesh: parameterize(mesh, boundary="square", seams=1),
     "flatten": flatten,
+    "atlas": lambda mesh: atlas(mesh, size=4096, padding=0).map,
 }
 
 

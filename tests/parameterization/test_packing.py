@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from beltrami.errors import MeshError
-from beltrami.parameterization.packing import outline, pack
+from beltrami.parameterization.packing import _lowest, _outlines, outline, pack
 
 
 def polygon(points):
@@ -82,3 +82,37 @@ def test_the_unit_of_the_charts_does_not_matter():
     scaled = [type(c)(c.segments * 2.0**-40, s.points) for c, s in zip(charts, scaled, strict=True)]
     for one, two in zip(pack(charts, 128, 1), pack(scaled, 128, 1), strict=True):
         np.testing.assert_allclose(one, two, atol=1e-12)
+
+
+@pytest.mark.parametrize("margin", [0, 2])
+def test_outlines_against_numpy(margin):
+    rng = np.random.default_rng(11)
+    segments = rng.uniform(0, 20, (7, 2, 2))
+    low, high = _outlines(segments, 21, margin)
+    t = np.linspace(0, 1, 20001)[:, None]
+    rows = {}
+    for a, b in segments:
+        for column, row in np.floor(a + t * (b - a)).astype(int).tolist():
+            for q in range(column, column + 2 * margin + 1):
+                rows.setdefault(q, set()).add(row)
+    for q, found in rows.items():  # a column may be wider than what a segment covers of it
+        assert low[q] <= min(found)
+        assert high[q] >= max(found) + 1 + 2 * margin
+        assert low[q] >= min(found) - 1
+        assert high[q] <= max(found) + 2 + 2 * margin
+
+
+def test_the_lowest_place_against_numpy():
+    rng = np.random.default_rng(12)
+    for _ in range(20):
+        horizon = rng.integers(0, 9, 15)
+        low = rng.integers(0, 4, 5)
+        high = low + rng.integers(1, 5, 5)
+        places = []
+        for column in range(11):
+            under = horizon[column : column + 5]
+            row = max(int((under - low).max()), 0)
+            lost = int((row + low - under).sum())
+            places.append((int((row + high).max()), lost, column, row))
+        top, lost, column, row = min(places)
+        assert _lowest(horizon, low, high) == (top, lost, row, column)

@@ -9,6 +9,7 @@ import pytest
 from beltrami.io.registry import read_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.repair import repair
+from beltrami.parameterization.atlas import atlas
 from beltrami.parameterization.parameterize import parameterize
 
 pytestmark = pytest.mark.meshes
@@ -72,3 +73,25 @@ def test_free_boundaries(name):
     psi = parameterize(read(name), "free")
     assert psi.is_bijective
     assert psi.distortion.symmetric_dirichlet < 1.3
+
+
+CHARTED = {  # the most charts that the bound of distortion may take
+    "spot_triangulated.obj": 16,
+    "Fandisk0.3/Original.obj": 10,
+    "halftunnel.off": 8,
+    "beetle.obj": 4,
+    "circle.obj": 1,
+    "nasty/teapot.obj": 40,
+    "nasty/hourglass_ico.obj": 6,
+    "nasty/fan3.obj": 3,
+    "nasty/two-boxes-bad-self-union.ply": 20,
+}
+
+
+@pytest.mark.parametrize("name", CHARTED)
+def test_atlases_of_real_surfaces(name):
+    found = atlas(read(name), size=512)
+    assert found.is_bijective
+    assert found.count <= CHARTED[name]
+    assert found.chart_distortion.max() <= 1.1 * 1.01
+    assert found.fill > 0.35

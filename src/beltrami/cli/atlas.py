@@ -35,6 +35,7 @@ def atlas(
         float, Option(help="Symmetric Dirichlet energy of a chart, above 1 = isometry.")
     ] = 1.1,
     cells: Annotated[str, Option(help="farthest or spectral: of the first charts.")] = "farthest",
+    holes: Annotated[str, Option(help="fill: charts may have them; or cut.")] = "fill",
     seams: Annotated[
         int, Option(min=0, help="Up to so many cuts into a chart before it is cut in two.")
     ] = 2,
@@ -76,6 +77,7 @@ def atlas(
             count,
             max_distortion=max_distortion,
             cells=cells,
+            holes=holes,
             seams=seams,
             size=size,
             padding=padding,

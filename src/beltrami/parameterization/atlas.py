@@ -9,12 +9,17 @@ import numpy as np
 
 from beltrami._arrays import Booleans, Floats, Integers, read_only, whole
 from beltrami._progress import Progress
-from beltrami.errors import MeshError, shown
-from beltrami.mesh.cut import Cut, cut_along
+from beltrami.errors import MeshError, check_name, shown
+from beltrami.mesh.cut import Cut
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.topology import Topology
+from beltrami.operators.soundness import refuse_unreferenced, require_sound
 from beltrami.parameterization.cells import Neighbours, halved, into_disks
 from beltrami.parameterization.certificate import certify
 from beltrami.parameterization.disk_cells import segment_into_disks
+from beltrami.parameterization.distortion import measured
+from beltrami.parameterization.holes import HOLES, Filled, fill_holes
 from beltrami.parameterization.packing import outline, pack
 from beltrami.parameterization.parameterization import Parameterization, certified
 from beltrami.parameterization.parameterize import parameterize
@@ -27,11 +32,16 @@ _EXACT = 2.0**24  # multiples of its inverse in [0, 1] are exact in single preci
 
 
 class _Chart(NamedTuple):
-    """Faces of the surface, the vertices they name, and the map of their mesh."""
+    """Faces of the surface, and a mesh of their own in the plane.
+
+    ``corners`` are the faces in vertices of the chart, ``origin`` those of the surface that these
+    are copies of, ``uv`` where they lie.
+    """
 
     faces: Integers
-    number: Integers
-    map: Parameterization
+    corners: Integers
+    origin: Integers
+    uv: Floats
 
 
 def atlas(
@@ -41,6 +51,7 @@ def atlas(
     max_distortion: float = 1.1,
     method: str = "free",
     cells: str = "farthest",
+    holes: str = "fill",
     seams: int = 2,
     size: int = 1024,
     padding: int = 2,
@@ -71,6 +82,9 @@ def atlas(
         Of ``parameterize``: ``"free"`` has the least distortion by far.
     cells
         Of ``segment_into_disks``: ``"farthest"`` or ``"spectral"``, for the first charts.
+    holes
+        ``"fill"``: charts may have the holes of the surface, which are closed while they are
+        mapped; ``"cut"``: each chart is a disk.
     seams
         Of ``parameterize``: up to so many cuts into a chart before it is cut in two.
     size, padding
@@ -110,12 +124,17 @@ def atlas(
     >>> ball.count, ball.is_bijective, round(ball.distortion.symmetric_dirichlet, 1)
     (2, True, 1.0)
     """
+    require_sound(require_mesh(mesh, "an atlas"))
+    if not mesh.topology.referenced.all():
+        refuse_unreferenced(mesh.topology)
     if not (isinstance(max_distortion, numbers.Real) and max_distortion > 1):
         raise MeshError(f"max_distortion is a number above 1, not {shown(max_distortion)}")
     whole("size", size, least=16, most=65536)
     whole("padding", padding, least=0, most=size // 4)
-    first = segment_into_disks(mesh, count, method=cells).labels
-    apart = cut_along(mesh, np.zeros(mesh.topology.n_edges, np.bool_))
+    whole("the number of charts", count, least=1, most=mesh.n_faces)
+    check_name("treatment of holes", holes, HOLES)
+    filled = fill_holes(mesh) if holes == "fill" else Filled.without_any(mesh)
+    first = segment_into_disks(filled.mesh, count, method=cells).labels
     gap = 2 * padding * np.sqrt(mesh.area / _FILL) / size
     charts: list[_Chart] = []
     waiting = [np.flatnonzero(first == cell) for cell in range(int(first.max()) + 1)]
@@ -124,18 +143,46 @@ def atlas(
         if progress is not None:
             progress(mapped, mesh.n_faces)
         faces = waiting.pop()
-        number, corners = np.unique(apart.mesh.faces[faces], return_inverse=True)
-        part = Mesh(apart.mesh.vertices[number], corners.reshape(-1, 3))
+        number, corners = np.unique(filled.mesh.faces[faces], return_inverse=True)
+        part = Mesh(filled.mesh.vertices[number], corners.reshape(-1, 3))
         found = parameterize(part, method, seams=seams, strict=False)
-        good = found.is_bijective and found.distortion.symmetric_dirichlet <= max_distortion
-        if len(faces) == 1 or (good and not _comes_near_itself(found, gap)):
-            charts.append(_Chart(faces, number, found))
-            mapped += len(faces)
+        made = _charts(found, faces, filled.apart.vertex_map, number, mesh.n_faces)
+        good = found.is_bijective and all(
+            _distortion(chart, mesh) <= max_distortion and not _comes_near_itself(chart, mesh, gap)
+            for chart in made
+        )
+        if len(faces) == 1 or good:
+            charts += made
+            mapped += sum(len(chart.faces) for chart in made)
         else:
             halves = _halves(part)
             waiting += [faces[halves == half] for half in range(int(halves.max()) + 1)]
     charts.sort(key=lambda chart: int(chart.faces[0]))
-    return _assembled(mesh, apart, charts, size, padding, strict=strict)
+    words = f"atlas of {len(charts)} charts: {found.method}"
+    return _assembled(mesh, charts, size, padding, words, strict=strict)
+
+
+def _charts(
+    found: Parameterization, faces: Integers, vertex_map: Integers, number: Integers, m: int
+) -> list[_Chart]:
+    """Leave out the faces that fill holes; a chart for each piece of what remains."""
+    real = np.flatnonzero(faces < m)
+    if not len(real):
+        return []
+    used, corners = np.unique(found.mesh.faces[real], return_inverse=True)
+    pieces = Topology(corners.reshape(-1, 3)).components("edges")
+    made = []
+    for piece in range(int(pieces.max()) + 1):
+        own = real[pieces == piece]
+        used, corners = np.unique(found.mesh.faces[own], return_inverse=True)
+        origin = vertex_map[number[found.vertex_map[used]]]
+        made.append(_Chart(faces[own], corners.reshape(-1, 3), origin, found.uv[used]))
+    return made
+
+
+def _distortion(chart: _Chart, mesh: Mesh) -> float:
+    part = Mesh(mesh.vertices[chart.origin], chart.corners)
+    return measured(part, chart.uv).symmetric_dirichlet
 
 
 def _halves(part: Mesh) -> Integers:
@@ -147,7 +194,7 @@ def _halves(part: Mesh) -> Integers:
     return into_disks(halved(labels, near, np.ones(1, np.bool_)), part.topology, near)[0]
 
 
-def _comes_near_itself(found: Parameterization, gap: float) -> bool:
+def _comes_near_itself(chart: _Chart, mesh: Mesh, gap: float) -> bool:
     """Whether parts of the boundary that are far apart on the surface nearly meet in the plane.
 
     A filter would mix their texels. Both sides of a seam may be near to each other: they are the
@@ -157,15 +204,16 @@ def _comes_near_itself(found: Parameterization, gap: float) -> bool:
         return False
     from scipy.spatial import cKDTree  # slow to load
 
-    edges = found.mesh.topology.boundary_edges
-    a, b = (found.uv[edges[:, end]] / found.distortion.scale for end in (0, 1))
+    edges = Topology(chart.corners).boundary_edges
+    uv = chart.uv * np.sqrt(mesh.face_areas[chart.faces].sum() / _area(chart.uv[chart.corners]))
+    a, b = uv[edges[:, 0]], uv[edges[:, 1]]
     pieces = np.ceil(np.linalg.norm(b - a, axis=1) / (gap / 2)).astype(np.int64)
     pieces = np.clip(pieces, 1, _PIECES)
     edge = np.repeat(np.arange(len(edges)), pieces)
     turn = np.arange(len(edge)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
     t = (turn / pieces[edge])[:, None]
     flat = a[edge] + t * (b - a)[edge]
-    x, y = (found.mesh.vertices[edges[:, end]] for end in (0, 1))
+    x, y = (mesh.vertices[chart.origin[edges[:, end]]] for end in (0, 1))
     there = x[edge] + t * (y - x)[edge]
     pairs = cKDTree(flat).query_pairs(gap, output_type="ndarray")
     far = np.linalg.norm(there[pairs[:, 0]] - there[pairs[:, 1]], axis=1) > _APART * gap
@@ -173,24 +221,22 @@ def _comes_near_itself(found: Parameterization, gap: float) -> bool:
 
 
 def _assembled(
-    mesh: Mesh, apart: Cut, charts: list[_Chart], size: int, padding: int, *, strict: bool
+    mesh: Mesh, charts: list[_Chart], size: int, padding: int, words: str, *, strict: bool
 ) -> TextureAtlas:
     """Pack the charts, and make one map of them."""
     outlines = []
     for chart in charts:
-        opened, uv = chart.map.mesh, chart.map.uv
-        scale = np.sqrt(mesh.face_areas[chart.faces].sum() / _area(uv[opened.faces]))
-        outlines.append(outline(uv * scale, opened.topology.boundary_edges))
+        scale = np.sqrt(mesh.face_areas[chart.faces].sum() / _area(chart.uv[chart.corners]))
+        edges = Topology(chart.corners).boundary_edges
+        outlines.append(outline(chart.uv * scale, edges))
     packed = pack(outlines, size, padding)
     starts = np.cumsum([0, *(len(points) for points in packed)])
     faces = np.empty((mesh.n_faces, 3), np.int64)
     labels = np.empty(mesh.n_faces, np.int64)
-    origin = []
     for label, (start, chart) in enumerate(zip(starts[:-1], charts, strict=True)):
-        faces[chart.faces] = chart.map.mesh.faces + start
+        faces[chart.faces] = chart.corners + start
         labels[chart.faces] = label
-        origin.append(apart.vertex_map[chart.number[chart.map.vertex_map]])
-    vertex_map = np.concatenate(origin)
+    vertex_map = np.concatenate([chart.origin for chart in charts])
     data = {name: values[vertex_map] for name, values in mesh.vertex_data.items()}
     opened = Mesh(mesh.vertices[vertex_map], faces, data)
     cut = Cut(opened, read_only(vertex_map), read_only(_cut_edges(mesh, faces)))
@@ -198,8 +244,7 @@ def _assembled(
     rounded = np.rint(uv * _EXACT) / _EXACT
     if certify(opened.topology, rounded).is_bijective:
         uv = rounded
-    kinds = sorted({chart.map.method for chart in charts})
-    found = certified(mesh, cut, uv, f"atlas of {len(charts)} charts: {kinds[0]}", strict=strict)
+    found = certified(mesh, cut, uv, words, strict=strict)
     return TextureAtlas(read_only(uv[faces]), read_only(labels), found, size, padding)
 
 

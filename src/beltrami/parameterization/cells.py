@@ -80,7 +80,7 @@ def hanging_together(labels: Integers, near: Neighbours) -> Integers:
     owner = np.empty(count, np.int64)
     owner[piece] = labels
     kept = np.zeros(count, np.bool_)
-    kept[_largest(owner, area)] = True
+    kept[largest_of_each(owner, area)] = True
     whole = np.empty(count, np.int64)
     whole[piece] = component_labels(near.pairs, m)
     for component in np.setdiff1d(whole, whole[kept]):
@@ -98,12 +98,12 @@ def hanging_together(labels: Integers, near: Neighbours) -> Integers:
             return_inverse=True,
         )
         common = np.bincount(turn.ravel(), border[open_ways], len(keys)).astype(np.float64)
-        longest = _largest(keys[:, 0], common)
+        longest = largest_of_each(keys[:, 0], common)
         cell[keys[longest, 0]] = keys[longest, 1]
     return cell[piece]
 
 
-def _largest(groups: Integers, values: Floats) -> Integers:
+def largest_of_each(groups: Integers, values: Floats) -> Integers:
     """Return the place of the largest value of each group, the first of equal ones."""
     order = np.lexsort([np.arange(len(groups)), -values, groups])
     first = np.ones(len(order), np.bool_)
@@ -151,7 +151,7 @@ def halved(labels: Integers, near: Neighbours, chosen: Booleans) -> Integers:
     for _ in range(2):
         distance = dijkstra(graph, directed=True, indices=first, min_only=True)
         second = first
-        first = np.flatnonzero(inside)[_largest(labels[inside], distance[inside])]
+        first = np.flatnonzero(inside)[largest_of_each(labels[inside], distance[inside])]
     _, _, source = dijkstra(
         graph,
         directed=True,
@@ -227,19 +227,20 @@ def _move_faces(labels: Any, twins: Any, lengths: Any) -> None:
 
 
 def merged(labels: Integers, mesh: Mesh, near: Neighbours, count: int) -> Integers:
-    """Join cells that are disks to larger disks, the smallest first, while more than ``count``.
+    """Join cells that are disks to larger disks, while there are more than ``count``.
 
-    Two disks with no more in common than one path make a disk, and what they have in common is a
-    path if it has one vertex more than edges and any edge.
+    Those come first whose union has the shortest border: small ones with much in common. Two
+    disks with no more in common than one path make a disk, and what they have in common is a path
+    if it has one vertex more than edges and any edge.
     """
     while True:
         labels = np.unique(labels, return_inverse=True)[1].ravel()
         cells = int(labels.max()) + 1
         if cells <= count:
             return labels
-        areas = np.bincount(labels, near.areas, cells)
-        pairs = _joinable(labels, mesh.faces, near, cells)
-        pairs = pairs[np.argsort(areas[pairs].sum(axis=1), kind="stable")]
+        pairs, common = _joinable(labels, mesh.faces, near, cells)
+        borders = _borders(labels, mesh, cells)
+        pairs = pairs[np.argsort(borders[pairs].sum(axis=1) - 2 * common, kind="stable")]
         taken = np.zeros(cells, np.bool_)
         target = np.arange(cells)
         left = cells
@@ -253,11 +254,24 @@ def merged(labels: Integers, mesh: Mesh, near: Neighbours, count: int) -> Intege
         labels = target[labels]
 
 
-def _joinable(labels: Integers, faces: Integers, near: Neighbours, cells: int) -> Integers:
-    """Return the pairs of disks that make a disk together."""
+def _borders(labels: Integers, mesh: Mesh, cells: int) -> Floats:
+    """Return the length of the border of each cell."""
+    twins = mesh.topology.twins
+    outer = (twins < 0) | (labels[np.where(twins >= 0, twins, 0) // 3] != labels[:, None])
+    lengths = mesh.edge_lengths[mesh.topology.face_edges]
+    return np.asarray(np.bincount(labels, (lengths * outer).sum(axis=1), cells))
+
+
+def _joinable(
+    labels: Integers, faces: Integers, near: Neighbours, cells: int
+) -> tuple[Integers, Floats]:
+    """Return the pairs of disks that make a disk together, and the length they have in common."""
     across = np.sort(labels[near.pairs], axis=1)
-    across = across[across[:, 0] < across[:, 1]]
-    keys, edges = np.unique(across[:, 0] * cells + across[:, 1], return_counts=True)
+    apart = across[:, 0] < across[:, 1]
+    keys, turn, edges = np.unique(
+        across[apart, 0] * cells + across[apart, 1], return_inverse=True, return_counts=True
+    )
+    lengths = np.bincount(turn.ravel(), near.edges[apart], len(keys))
     ends = np.unique(faces.astype(np.int64) * cells + labels[:, None])
     vertex, cell = ends // cells, ends % cells
     common = []
@@ -269,6 +283,5 @@ def _joinable(labels: Integers, faces: Integers, near: Neighbours, cells: int) -
         common.append(cell[same] * cells + cell[same + step])
         step += 1
     met, vertices = np.unique(np.concatenate([*common, keys[:0]]), return_counts=True)
-    shared = vertices[np.searchsorted(met, keys)]
-    good = keys[shared == edges + 1]
-    return np.stack([good // cells, good % cells], axis=1)
+    good = vertices[np.searchsorted(met, keys)] == edges + 1
+    return np.stack([keys[good] // cells, keys[good] % cells], axis=1), lengths[good]

@@ -20,6 +20,7 @@ from beltrami.parameterization.cells import (
     Neighbours,
     hanging_together,
     into_disks,
+    largest_of_each,
     merged,
     smoothed,
 )
@@ -131,16 +132,22 @@ def segment_into_disks(mesh: Mesh, count: int = 8, *, method: str = "farthest") 
 
 
 def _by_seeds(mesh: Mesh, count: int) -> Integers:
-    """Give each face to the nearest of seeds that are as far from each other as can be."""
-    reach = edge_distance(mesh, np.array([0]))
-    first = int(np.where(np.isfinite(reach), reach, 0).argmax())
+    """Give each face to the nearest of seeds that are as far from each other as can be.
+
+    Each component has one to begin with, far out.
+    """
+    labels = mesh.components().copy()
+    components, start = np.unique(labels, return_index=True)
+    of_vertex = np.empty(mesh.n_vertices, np.int64)
+    of_vertex[mesh.faces.ravel()] = np.repeat(labels, 3)
+    seeds = largest_of_each(of_vertex, edge_distance(mesh, mesh.faces[start, 0]))
     method = HeatMethod(mesh, time=_time(mesh))
-    nearest = np.full(mesh.n_vertices, np.inf)
-    best = np.full(mesh.n_faces, np.inf)
-    labels = np.zeros(mesh.n_faces, np.int64)
-    for cell in range(mesh.n_faces):
-        seed = int(nearest.argmax()) if cell else first
-        if cell and (nearest[seed] <= 0 or (cell >= count and np.isfinite(nearest[seed]))):
+    nearest = method.distance(seeds)
+    nearest[seeds] = 0
+    best = nearest[mesh.faces].sum(axis=1)
+    for cell in range(len(components), count):
+        seed = int(nearest.argmax())
+        if nearest[seed] <= 0:
             break
         distance = method.distance(seed)
         of_faces = distance[mesh.faces].sum(axis=1)

@@ -30,6 +30,12 @@ class Filled:
     mesh: Mesh
     apart: Cut
 
+    @classmethod
+    def without_any(cls, mesh: Mesh) -> Filled:
+        """Fill nothing, but cut the surface apart where it is not a manifold."""
+        apart = cut_along(mesh, np.zeros(mesh.topology.n_edges, np.bool_))
+        return cls(apart.mesh, apart)
+
 
 def fill_holes(mesh: Mesh) -> Filled:
     """Fill all boundary loops but the longest of each component.
