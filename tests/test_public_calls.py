@@ -19,10 +19,12 @@ from public_results import arrays_of, digest
 from public_scene import PAIRS, Scene
 
 # Where the documentation says so: no volume of an open mesh, no length of an edge of a function,
-# no value outside of a map, no bound proven, no path between components, no bound above the last band, no area of
-# a face in the plane.
+# no value outside of a map; no path between components, no bound above the last band or where
+# nothing is proven, no area of a face in the plane.
 NOT_A_NUMBER = re.compile(r"(\.volume_change|\.noise(\.\d)?\.relative|\.evaluate)$")
-INFINITE = re.compile(r"^(geodesic_distance|HeatMethod|spectral_|Distortion|distortion|.*_frame)|\.truncation$")
+INFINITE = re.compile(
+    r"^(geodesic_distance|HeatMethod|spectral_|Distortion|distortion|.*_frame)|\.truncation$"
+)
 UNITS = (0, 0, 0, -12, 12)
 
 
