@@ -40,6 +40,17 @@ def _table(scene):
     return place
 
 
+def _gathered(scene):
+    blocks = bt.partition_rows(scene.pair, min(2, scene.n))
+    return bt.gather_rows(blocks, [scene.f[block.owned] for block in blocks])
+
+
+def _batch(scene):
+    return bt.run_batch(
+        [str(_written(scene, ".ply"))], "repair, integrate", scene.path("x").parent, workers=0
+    )
+
+
 def _heat(scene, how):
     calls = {
         "explicit": {"steps": 9},
@@ -151,6 +162,8 @@ MESHES = {
     "Page": lambda s: bt.page(
         s.mesh, s.path("a.html"), modes=1, laplacians=("combinatorial",), noise=0
     ).path.is_file(),
+    "run_batch": _batch,
+    "Batch": lambda s: _batch(s).state.done,
     "colorize": lambda s: bt.colorize(s.fields),
     "DirectionalLight": lambda s: bt.render(
         s.mesh, size=(16, 16), antialias=1, light=bt.DirectionalLight((0, 0, 1))
@@ -213,6 +226,12 @@ OPERATORS = {
     "minres": lambda s: _solved(bt.minres, s),
     "IterativeSolution": lambda s: bt.conjugate_gradients(
         s.pair.stiffness, s.pair.stiffness @ s.f, tolerance=1e-6
+    ),
+    "partition_rows": lambda s: bt.partition_rows(s.pair, min(2, s.n)),
+    "RowBlock": lambda s: bt.partition_rows(s.pair, np.zeros(s.n, int)),
+    "gather_rows": _gathered,
+    "write_rows": lambda s: len(
+        bt.write_rows(s.path("x").parent, bt.partition_rows(s.pair, 1), {"f": s.f})
     ),
     "learning_operators": lambda s: bt.learning_operators(s.mesh, min(4, s.n)),
     "LearningOperators": lambda s: bt.learning_operators(
@@ -322,6 +341,9 @@ FLOWS = {
     "Parameterization": lambda s: s.map.textured.corner_uv,
     "Parameterization.image": lambda s: s.map.image([0], [[0.2, 0.3, 0.5]]),
     "Parameterization.original": lambda s: s.map.original(s.map.uv[:1]),
+    "Parameterization.evaluate": lambda s: s.map.evaluate(s.f, [[0.1, 0.1], [9.0, 9.0]]),
+    "Parameterization.from_map": lambda s: s.map.from_map(s.map.to_map(s.f)),
+    "Parameterization.to_map": lambda s: s.map.to_map(s.fields),
     "flatten": lambda s: bt.flatten(s.mesh),
     "atlas": lambda s: bt.atlas(s.mesh, 2, size=64, strict=False),
     "TextureAtlas": lambda s: bt.atlas(s.mesh, size=32, seams=0, max_distortion=4.0),
@@ -402,9 +424,21 @@ SURFACES = {
     "datasets.fetch": None,  # tests/datasets, with a server
     "datasets.load": None,
 }
-ROWS = {**MESHES, **OPERATORS, **SPECTRA, **FLOWS, **GRIDS, **SURFACES}
+BLOCKS = {
+    "partition_rows": lambda s: bt.partition_rows(s.pair, 2),
+    "RowBlock": lambda s: [
+        (b.owned, b.columns, b.stiffness.data, b.mass.data) for b in bt.partition_rows(s.pair, 2)
+    ],
+    "gather_rows": lambda s: bt.gather_rows(
+        blocks := bt.partition_rows(s.pair, 2), [s.f[b.owned] for b in blocks]
+    ),
+    "write_rows": None,  # tests/batch
+    "Batch": None,
+    "run_batch": None,
+}
+ROWS = {**MESHES, **OPERATORS, **SPECTRA, **FLOWS, **BLOCKS, **GRIDS, **SURFACES}
 CALLS = {name: call for name, call in ROWS.items() if call is not None}
-SLOW = ("plot_spectrum", "page", "Page")  # called once
+SLOW = ("plot_spectrum", "page", "Page", "run_batch", "Batch")  # called once
 OF_MESHES = {
     name: call
     for name, call in CALLS.items()
