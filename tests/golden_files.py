@@ -37,6 +37,17 @@ def examples():
     functions = {"a": rng.normal(size=cylinder.n_vertices), "b": np.arange(cylinder.n_vertices)}
     uv = rng.random((len(damaged), 3, 2))
     disk = bt.shapes.disk(9)
+    heights = disk.vertices[:, 0]
+    smooth = {
+        "red": heights > 0.2,
+        "colours": np.rint(100 + 90 * disk.vertices).astype(np.uint8),
+        "single": (heights**2).astype(np.float32),
+        "double": np.sqrt(1 + heights**2),
+        "near": heights.copy(),
+        "noise": rng.normal(size=disk.n_vertices),
+    }
+    sheet = disk.vertices[disk.faces]
+    sheet[:40] += 2.0  # a seam
     return {
         "icosphere": (sphere, {"bits": 12}),
         "torus": (bt.shapes.torus(24, 16), {"max_error": 1e-4, "effort": "fast"}),
@@ -47,13 +58,27 @@ def examples():
         "five": (Mesh(rng.normal(size=(disk.n_vertices, 5)), disk.faces), {"bits": 6}),
         "smooth": (bt.shapes.cylinder(20, 12), {"bits": 6, "mode": "smooth"}),
         "blob": (bt.shapes.blob(2000), {"bits": 11}),
+        "free": (bt.shapes.blob(1200), {"bits": 6, "mode": "smooth"}),
+        "spectral_blob": (bt.shapes.blob(1200), {"bits": 7, "mode": "spectral"}),
+        "spectral_icosphere": (sphere, {"bits": 6, "mode": "spectral", "effort": "fast"}),
+        "spectral_torus": (
+            bt.shapes.torus(24, 16),
+            {"max_error": 0.03, "mode": "spectral", "keep_order": True},
+        ),
+        "functions": (
+            Mesh(disk.vertices, disk.faces, smooth, sheet),
+            {"bits": 6, "function_errors": {"near": 1e-3}, "keep_order": True},
+        ),
+        "spectral_cube": (bt.shapes.cube(6), {"terms": 40, "bits": 9, "mode": "spectral"}),
     }
 
 
 if __name__ == "__main__":
     FOLDER.mkdir(exist_ok=True)
-    digests = {}
+    place = FOLDER / "digests.json"
+    digests = json.loads(place.read_text()) if place.exists() else {}
     for name, (mesh, options) in examples().items():
-        data = bt.compress(mesh, FOLDER / f"{name}.btm", **options)
-        digests[name] = digest(bt.decompress(data))
-    (FOLDER / "digests.json").write_text(json.dumps(digests, indent=1) + "\n")
+        if name not in digests:
+            data = bt.compress(mesh, FOLDER / f"{name}.btm", **options)
+            digests[name] = digest(bt.decompress(data))
+    place.write_text(json.dumps(digests, indent=1) + "\n")

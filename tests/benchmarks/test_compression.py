@@ -2,16 +2,18 @@
 
 import numpy as np
 import pytest
-from benchmarks.compression import bytes_at, geometric_mean, main, measure, same_faces
+from benchmarks.compression import geometric_mean, main, measure, same_faces
+from benchmarks.mesh_errors import bytes_at, measure_errors
 
 import beltrami as bt
-from benchmarks import compression
+from benchmarks import other_codecs
 
 
 @pytest.fixture
 def without_draco(monkeypatch):
-    monkeypatch.setattr(compression, "draco", lambda mesh, bits: 1000 * bits)
-    monkeypatch.setattr(compression, "draco_connectivity", lambda mesh: 500)
+    monkeypatch.setattr(other_codecs, "draco", lambda mesh, bits: 1000 * bits)
+    monkeypatch.setattr(other_codecs, "draco_seconds", lambda mesh, bits: (0.1, 0.2))
+    monkeypatch.setattr(other_codecs, "draco_connectivity", lambda mesh: 500)
 
 
 def test_a_mesh_is_measured(without_draco):
@@ -20,7 +22,8 @@ def test_a_mesh_is_measured(without_draco):
     assert one.ours == len(bt.compress(mesh, bits=9, effort="fast"))
     assert one.ratio == one.ours / 9000
     step = np.ptp(mesh.vertices, axis=0).max() / 511
-    assert one.error == pytest.approx(step / 2, rel=0.15)  # a uniform error in three dimensions
+    diagonal = np.linalg.norm(np.ptp(mesh.vertices, axis=0))
+    assert one.errors.rms == pytest.approx(step / 2 / diagonal, rel=0.15)  # uniform, in 3-D
 
 
 def test_a_mesh_that_does_not_come_back_has_no_ratio(without_draco, monkeypatch):
@@ -41,13 +44,34 @@ def test_faces_are_the_same_up_to_order_and_first_corner():
 
 def test_means_and_lines_are_of_logarithms():
     assert geometric_mean([2, 8]) == pytest.approx(4)
-    assert bytes_at(0.1, [(1.0, 100), (0.01, 10_000)]) == pytest.approx(1000)
+    curve = [(1.0, 100), (0.01, 10_000)]
+    assert bytes_at(0.1, curve) == pytest.approx(1000)
+    assert bytes_at(7.0, curve) == pytest.approx(100)
+    assert bytes_at(0.001, curve) == np.inf  # a finer error than any of the curve
+
+
+def test_errors_are_what_they_say():
+    mesh = bt.shapes.grid(6, 6)
+    flat = bt.Mesh(np.column_stack([mesh.vertices, np.zeros(mesh.n_vertices)]), mesh.faces)
+    diagonal = np.linalg.norm(np.ptp(flat.vertices, axis=0))
+    moved = measure_errors(flat, flat.vertices + np.array([0, 0, 0.3]))
+    assert moved.rms == pytest.approx(0.3 / diagonal)
+    assert moved.largest == pytest.approx(0.3 / diagonal)
+    assert moved.visual == pytest.approx(0.15 / diagonal)  # a translation has no Laplacian
+    assert moved.angle == 0
+    tilted = flat.vertices + np.outer(flat.vertices[:, 0], [0, 0, 1])
+    assert measure_errors(flat, tilted).angle == pytest.approx(45)
+    rough = flat.vertices + np.outer(np.arange(flat.n_vertices) % 2, [0, 0, 0.1])
+    assert measure_errors(flat, rough).visual > measure_errors(flat, rough).rms
 
 
 def test_the_table_is_printed(without_draco, tmp_path, capsys):
     bt.write_mesh(tmp_path / "a.ply", bt.shapes.icosphere(1))
     assert main([str(tmp_path / "a.ply"), "--bits", "5", "7", "--effort", "fast"]) == 0
     printed = capsys.readouterr().out
-    assert "| mesh | vertices | 5 bits | 7 bits |" in printed
+    assert "| the same grid | 5 bits | 7 bits |" in printed
+    for measure_name in ("rms", "angle", "visual", "largest"):
+        assert f"| equal {measure_name} | 5 bits | 7 bits |" in printed
+    assert "| mesh, bits | ours | Draco | meshopt + zstd | xz |" in printed
     assert "(goal 0.65)" in printed
     assert "(goal 0.5)" in printed

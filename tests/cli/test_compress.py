@@ -11,7 +11,9 @@ from beltrami.io.registry import read_mesh
 
 def test_there_and_back(beltrami, sphere, tmp_path):
     small, back = tmp_path / "a.btm", tmp_path / "b.ply"
-    done = beltrami("compress", sphere, "-o", small, "--max-error", 0.01, "--keep-order")
+    done = beltrami(
+        "compress", sphere, "-o", small, "--max-error", 0.01, "--keep-order", "--mode", "grid"
+    )
     assert done.exit_code == 0, done.stderr
     assert f"{small.stat().st_size} bytes" in done.stdout
     assert "error at most 0.01" in done.stdout
@@ -20,16 +22,53 @@ def test_there_and_back(beltrami, sphere, tmp_path):
     mesh = read_mesh(sphere)
     off = np.linalg.norm(read_mesh(back).vertices - mesh.vertices, axis=1)
     assert 0 < off.max() <= 0.01
-    assert small.read_bytes() == bt.compress(mesh, max_error=0.01, keep_order=True)
+    assert small.read_bytes() == bt.compress(mesh, max_error=0.01, keep_order=True, mode="grid")
 
 
 def test_a_relative_error_is_a_part_of_the_diagonal(beltrami, sphere, tmp_path):
     small = tmp_path / "a.btm"
-    done = beltrami("compress", sphere, "-o", small, "--max-error", 0.01, "--relative", "--json")
+    done = beltrami(
+        "compress",
+        sphere,
+        "-o",
+        small,
+        "--max-error",
+        0.01,
+        "--relative",
+        "--json",
+        "--mode",
+        "grid",
+    )
     facts = json.loads(done.stdout)
     diagonal = np.linalg.norm(np.ptp(read_mesh(sphere).vertices, axis=0))
     assert facts["max_error"] == pytest.approx(0.01 * diagonal, rel=1e-5)
     assert facts["original_size"] == sphere.stat().st_size
+
+
+def test_a_spectral_file_and_its_beginning(beltrami, sphere, tmp_path):
+    small, part, back = tmp_path / "a.btm", tmp_path / "part.btm", tmp_path / "b.ply"
+    done = beltrami("compress", sphere, "-o", small, "--mode", "spectral", "--terms", 30)
+    assert done.exit_code == 0, done.stderr
+    assert "mode spectral" in beltrami("info", small).stdout
+    assert 0 < json.loads(beltrami("info", small, "--json").stdout)["terms"] <= 30
+    part.write_bytes(small.read_bytes()[:-20])
+    assert beltrami("decompress", part, "-o", back).exit_code == 1
+    assert beltrami("decompress", part, "-o", back, "--partial").exit_code == 0
+    assert read_mesh(back).n_faces == read_mesh(sphere).n_faces
+
+
+def test_errors_of_functions(beltrami, sphere, tmp_path):
+    given, small = tmp_path / "f.ply", tmp_path / "a.btm"
+    mesh = read_mesh(sphere)
+    height = mesh.vertices[:, 2]
+    bt.write_mesh(given, bt.Mesh(mesh.vertices, mesh.faces, {"height": height}))
+    done = beltrami("compress", given, "-o", small, "--function-error", "height=0.01")
+    assert done.exit_code == 0, done.stderr
+    off = bt.decompress(small).vertex_data["height"] - height[bt.vertex_order(mesh)]
+    assert 0 < abs(off).max() <= 0.01
+    for wrong in ("height", "height=x", "=3"):
+        done = beltrami("compress", given, "-o", small, "--function-error", wrong)
+        assert (done.exit_code, "expected NAME=ERROR" in done.stderr) == (2, True)
 
 
 def test_info_tells_the_sections(beltrami, sphere, tmp_path):
@@ -49,7 +88,8 @@ def test_info_tells_the_sections(beltrami, sphere, tmp_path):
     ("arguments", "code", "text"),
     [
         (("--relative",), 2, "--relative belongs to --max-error"),
-        (("--mode", "spectral"), 1, "choose one of 'auto', 'grid', 'smooth'"),
+        (("--mode", "wavelets"), 1, "choose one of 'auto', 'grid', 'smooth', 'spectral'"),
+        (("--terms", 3), 1, "they belong to the mode 'spectral'"),
         (("--effort", "bset"), 1, "Did you mean 'best'?"),
         (("--bits", 40), 1, "bits must be 1 to 30, not 40"),
     ],

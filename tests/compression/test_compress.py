@@ -86,8 +86,8 @@ def rms(mesh, data):
 def test_smooth_positions_are_nearer_for_the_same_bytes(bits):
     mesh = bt.shapes.blob(2000)
     plain, smooth = check(mesh, bits=bits), check(mesh, bits=bits, mode="smooth")
-    assert len(smooth) <= len(plain) + 8
-    assert rms(mesh, smooth) < (0.75 if bits < 7 else 0.95) * rms(mesh, plain)
+    assert len(smooth) < (0.9 if bits < 7 else 1.0) * len(plain)
+    assert rms(mesh, smooth) < rms(mesh, plain)
     assert describe(smooth).max_error <= 2 * describe(plain).max_error
     assert (describe(plain).mode, describe(smooth).mode) == ("grid", "smooth")
 
@@ -96,7 +96,7 @@ def test_smooth_positions_are_nearer_for_the_same_bytes(bits):
 def test_smooth_positions_keep_a_bound(max_error):
     for mesh in (bt.shapes.blob(1000), bt.shapes.cube(4)):
         data = check(mesh, max_error=max_error, mode="smooth")
-        assert describe(data).max_error <= max_error * (1 + 1e-9)
+        assert 0.5 * max_error < describe(data).max_error <= max_error * (1 + 1e-9)
 
 
 def test_smooth_surfaces_cost_less_than_noise():
@@ -173,7 +173,7 @@ def test_writing_is_whole_or_not_at_all(tmp_path):
 @pytest.mark.parametrize(
     ("options", "error", "message"),
     [
-        ({"mode": "spectral"}, UnknownNameError, "choose one of 'auto', 'grid', 'smooth'"),
+        ({"mode": "wavelets"}, UnknownNameError, "choose one of 'auto', 'grid', 'smooth', 'spec"),
         ({"effort": "most"}, UnknownNameError, "choose one of 'best', 'fast'"),
         ({"bits": 0}, MeshError, "bits must be 1 to 30, not 0"),
         ({"bits": 31}, MeshError, "bits must be 1 to 30, not 31"),

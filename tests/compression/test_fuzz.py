@@ -28,10 +28,19 @@ def files():
         rng.normal(size=(cylinder.n_faces + 5, 3, 2)),
     )
     plane = bt.shapes.disk(3)
+    heights = plane.vertices[:, 0]
+    colours = {"c": np.rint(99 + 9 * plane.vertices).astype("u1"), "h": heights.astype("f4")}
+    painted = Mesh(
+        plane.vertices, plane.faces, colours | {"d": heights.copy()}, plane.vertices[plane.faces]
+    )
     return [
         bt.compress(full, keep_order=True, bits=9),
-        bt.compress(full, max_error=1e-3, effort="fast"),
+        bt.compress(full, max_error=1e-3, effort="fast", mode="grid"),
         bt.compress(Mesh(plane.vertices, plane.faces[:, [0, 2, 1]]), bits=5),
+        bt.compress(full, mode="spectral", keep_order=True, max_error=0.05),
+        bt.compress(plane, mode="spectral", bits=6, effort="fast"),
+        bt.compress(plane, mode="smooth", bits=5),
+        bt.compress(painted, bits=6, function_errors={"d": 1e-2}),
         bt.compress(Mesh(np.zeros((0, 3)), np.zeros((0, 3), int))),
     ]
 
@@ -58,7 +67,12 @@ def with_checksums(data):
 
 
 def attempt(data):
-    for read, options in ((bt.decompress, {"max_vertices": LIMIT}), (describe, {})):
+    attempts = [
+        (bt.decompress, {"max_vertices": LIMIT}),
+        (bt.decompress, {"max_vertices": LIMIT, "partial": True}),
+        (describe, {}),
+    ]
+    for read, options in attempts:
         try:
             result = read(data, **options)
         except FileFormatError:

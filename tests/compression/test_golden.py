@@ -37,11 +37,18 @@ for name in sys.argv[1:]:
 """
 
 ASSEMBLY = """
-from beltrami.compression import conquest, positions
+from beltrami.compression import block_basis, coefficients, conquest, positions, transform
 from golden_files import FOLDER
 import beltrami as bt
 bt.decompress(FOLDER / "icosphere.btm")
-for kernel in (positions.code_positions, conquest.conquer):
+bt.decompress(FOLDER / "spectral_torus.btm")
+for kernel in (
+    positions.code_positions,
+    conquest.conquer,
+    coefficients.code_coefficients,
+    transform.add_up,
+    block_basis._eigenvectors,
+):
     print("".join(kernel.inspect_asm().values()))
 """
 
@@ -63,8 +70,9 @@ def python_path():
 
 
 def test_another_process_with_other_threads():
-    out = run(PROGRAM, ["blob"], OMP_NUM_THREADS="3", NUMBA_NUM_THREADS="1", PYTHONHASHSEED="7")
-    assert out.split() == ["blob", DIGESTS["blob"]]
+    names = ["blob", "spectral_blob"]
+    out = run(PROGRAM, names, OMP_NUM_THREADS="3", NUMBA_NUM_THREADS="1", PYTHONHASHSEED="7")
+    assert dict(line.split() for line in out.splitlines()) == {n: DIGESTS[n] for n in names}
 
 
 @pytest.mark.heavy

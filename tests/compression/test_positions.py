@@ -7,11 +7,13 @@ from beltrami.compression.geometry import decode_positions, encode_positions
 from beltrami.compression.grid import PositionGrid
 from beltrami.compression.guesses import BEST, FAST, frame, guess
 from beltrami.compression.neighbourhood import coding_order, look_around
+from beltrami.compression.numbers import decode_offsets, encode_offsets, surroundings
 from beltrami.compression.patches import new_patch, solve
-from beltrami.compression.positions import level
+from beltrami.compression.positions import DEAD_ZONE, level
 from beltrami.compression.residuals import LAPLACE, LOGISTIC, ln, mass
 from beltrami.compression.tables import WHOLE
-from beltrami.compression.varint import Reader
+from beltrami.compression.varint import Reader, to_varints
+from beltrami.errors import FileFormatError
 from beltrami.mesh import shapes
 
 
@@ -128,6 +130,24 @@ def test_levels_masses_and_logarithms():
     assert mass(LAPLACE, 0, one) / WHOLE == pytest.approx(0.5 - 0.5 / np.e, rel=1e-4)
     for x in (1, 2, 3, 1000, 12345678, 1 << 40):
         assert ln(x) / 65536 == pytest.approx(np.log(x), abs=2e-3)
+
+
+@pytest.mark.parametrize("effort", ["best", "fast"])
+@pytest.mark.parametrize("d", [2, 3, 5])
+def test_offsets_come_back_bit_by_bit_and_near(effort, d):
+    """Whole steps from a prediction: within half a step, or 0.6 where the prediction is taken."""
+    mesh = shapes.icosphere(2)
+    near = surroundings(mesh.faces, mesh.n_vertices)
+    for spread in (2.0, 1000.0):
+        x = np.tile(mesh.vertices, 2)[:, :d] * spread
+        data, placed = encode_offsets(x, near, effort)
+        found = decode_offsets(Reader(data, "x"), x.shape, near, effort)
+        assert found.tobytes() == placed.tobytes()
+        off = abs(placed - x)
+        assert 0.5 < off.max() <= DEAD_ZONE if spread < 10 else off.max() <= DEAD_ZONE
+        assert (off > 0.5).mean() < 0.2
+    with pytest.raises(FileFormatError, match="fewer numbers"):
+        decode_offsets(Reader(to_varints([3]) + data[2:5], "x"), (x.shape[0], 3), near, effort)
 
 
 @pytest.mark.parametrize("effort", ["best", "fast"])

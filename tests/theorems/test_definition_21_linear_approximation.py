@@ -66,7 +66,7 @@ def test_as_printed_a_mesh_must_stay_where_it_is(closed):
     assert printed[1] > 14 * printed[0]
 
 
-@pytest.mark.chapter("D21")
+@pytest.mark.chapter("D21", "P66")
 def test_it_removes_high_frequencies_and_not_small_coefficients(closed):
     """E86: the largest 60 coefficients are others than the first 60, and do better."""
     pair, basis = closed
@@ -75,8 +75,31 @@ def test_it_removes_high_frequencies_and_not_small_coefficients(closed):
     linear = pair.norm(bump - basis.truncate(bump, 60))
     best = np.argsort(-np.abs(c))[:60]
     kept = np.isin(np.arange(pair.n), best)
-    assert linear > 1.2 * pair.norm(bump - basis.inverse(np.where(kept, c, 0)))
+    expected = basis.inverse(np.where(kept, c, 0))
+    np.testing.assert_allclose(basis.truncate(bump, 60, largest=True), expected, atol=1e-12)
+    assert linear > 1.2 * pair.norm(bump - expected)
     assert (best >= 60).sum() > 5
+
+
+@pytest.mark.chapter("U35", "P66")
+@pytest.mark.parametrize("mass", ["degree", "voronoi", "consistent"])
+def test_the_largest_terms_are_the_best_ones(mass):
+    """Of any m terms, for each column; every other choice has a larger error."""
+    rng = np.random.default_rng(5)
+    pair = laplacian(MESHES["closed"](), mass=mass)
+    basis = fourier_basis(pair, 120)
+    f = np.column_stack([rng.normal(size=pair.n), pair.domain.vertices[:, 0] ** 3])
+    decay, linear = basis.error_decay(f, largest=True), basis.error_decay(f)
+    assert (decay <= linear * (1 + 1e-12)).all()
+    np.testing.assert_allclose(decay[[0, -1]], linear[[0, -1]], rtol=1e-10)
+    for m in (0, 1, 7, 50, 120):
+        best = basis.truncate(f, m, largest=True)
+        for column in range(2):
+            error = pair.norm(f[:, column] - best[:, column])
+            assert error == pytest.approx(decay[m, column], rel=1e-9)
+            c = basis.forward(f[:, column])
+            c[rng.permutation(120)[m:]] = 0
+            assert error <= pair.norm(f[:, column] - basis.inverse(c)) * (1 + 1e-12)
 
 
 @pytest.mark.chapter("U35")

@@ -34,11 +34,29 @@ def compress(
         int | None,
         typer.Option(help="2^bits grid points along the longest side.", show_default="14"),
     ] = None,
-    mode: Annotated[str, typer.Option(help="auto, grid or smooth.")] = "auto",
+    mode: Annotated[str, typer.Option(help="auto, grid, smooth or spectral.")] = "auto",
+    terms: Annotated[
+        int | None,
+        typer.Option(
+            help="With --mode spectral: frequencies of each block of vertices.", show_default="all"
+        ),
+    ] = None,
     effort: Annotated[str, typer.Option(help="best or fast.")] = "best",
     keep_order: Annotated[
         bool, typer.Option("--keep-order", help="Keep the numbers of the vertices.")
     ] = False,
+    function_error: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=ERROR",
+            help="How far a function may move; else exact.",
+            show_default=False,
+        ),
+    ] = None,
+    uv_error: Annotated[
+        float | None,
+        typer.Option(help="How far texture coordinates may move.", show_default="exact"),
+    ] = None,
     curve: Annotated[
         bool,
         typer.Option(
@@ -47,7 +65,7 @@ def compress(
     ] = False,
     json: Json = False,
 ) -> None:
-    """Compress a mesh: faces exactly, positions within a bound, functions exactly.
+    """Compress a mesh: faces exactly, positions within a bound, functions exactly or within one.
 
     Vertices and faces are numbered anew, vertices not with --keep-order. The file is decoded and
     compared before it is written.
@@ -74,8 +92,11 @@ def compress(
             max_error=max_error,
             bits=bits,
             mode=mode,
+            terms=terms,
             effort=effort,
             keep_order=keep_order,
+            function_errors=_errors(function_error or []),
+            uv_error=uv_error,
             progress=progress,
         )
     contents = describe(data)
@@ -87,3 +108,17 @@ def compress(
         f"wrote {output}: {len(data)} bytes, {rate:.2f} bits per vertex, "
         f"error at most {contents.max_error:.3g}"
     )
+
+
+def _errors(options: list[str]) -> dict[str, float]:
+    """Read errors of functions: NAME=ERROR each."""
+    errors = {}
+    for option in options:
+        name, _, number = option.rpartition("=")
+        try:
+            errors[name] = float(number)
+        except ValueError:
+            name = ""
+        if not name:
+            raise typer.BadParameter(f"expected NAME=ERROR, found {option!r}")
+    return errors

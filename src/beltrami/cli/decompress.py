@@ -18,6 +18,10 @@ def decompress(
     max_vertices: Annotated[
         int, typer.Option(min=0, help="Refuse files that declare more.")
     ] = 10_000_000,
+    partial: Annotated[
+        bool,
+        typer.Option("--partial", help="Take the beginning of a file of the mode spectral."),
+    ] = False,
 ) -> None:
     """Decompress a mesh that `beltrami compress` wrote."""
     from beltrami.compression import decompress as room
@@ -25,6 +29,6 @@ def decompress(
 
     check_mesh_output(output)
     with waiting(f"decompressing {source.name}") as progress:
-        mesh = room.decompress(source, max_vertices, progress)
+        mesh = room.decompress(source, max_vertices, progress, partial=partial)
         write_mesh(output, mesh)
     typer.echo(f"wrote {output}: {mesh!r}")

@@ -48,6 +48,7 @@ def _tell_contents(path: Path, json: bool) -> None:
         f"{path}: {contents.n_vertices} vertices in {contents.dimension} dimensions, "
         f"error at most {contents.max_error:.6g}, format {contents.version}, "
         f"mode {contents.mode}, effort {contents.effort}"
+        + (f", {contents.terms} terms" if contents.terms is not None else "")
     )
     for name, size in (*contents.sections, ("file", contents.size)):
         typer.echo(f"  {name}: {size} bytes, {8 * size / n:.3f} bits per vertex")

@@ -3,36 +3,40 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 
 import numpy as np
 
-from beltrami._arrays import Floats, Integers, require_finite
+from beltrami._arrays import Floats, Integers, require_finite, whole
 from beltrami._progress import Progress
+from beltrami.compression.attributes import Attributes, check_errors, encode_attributes
+from beltrami.compression.choosing import MODES, Wish, encode_wish
 from beltrami.compression.connectivity import Connectivity, encode_connectivity
 from beltrami.compression.container import (
     CONNECTIVITY,
-    DATA,
     GRID,
     KEEPS_ORDER,
     ORDER,
-    UV,
+    PREDICTED,
+    PREDICTED_UV,
+    PREDICTS,
+    PROGRESSIVE,
+    SPECTRUM,
     Section,
     pack,
 )
 from beltrami.compression.contents import describe
 from beltrami.compression.decompress import decompress
-from beltrami.compression.functions import encode_array
-from beltrami.compression.geometry import EFFORTS, MOST_COORDINATES, encode_positions
-from beltrami.compression.grid import MOST_BITS, grid_for
+from beltrami.compression.geometry import MOST_COORDINATES
+from beltrami.compression.grid import MOST_BITS
+from beltrami.compression.numbers import EFFORTS
 from beltrami.compression.ordering import encode_order
-from beltrami.compression.smooth_grid import smooth_grid
 from beltrami.errors import BeltramiError, DimensionError, MeshError, check_name
 from beltrami.io.atomic import replacing
 from beltrami.mesh.door import require_mesh, topology_of
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
 
-MODES = ("auto", "grid", "smooth")
 _BITS = 14
 
 
@@ -43,8 +47,11 @@ def compress(
     max_error: float | None = None,
     bits: int | None = None,
     mode: str = "auto",
+    terms: int | None = None,
     effort: str = "best",
     keep_order: bool = False,
+    function_errors: Mapping[str, float] | None = None,
+    uv_error: float | None = None,
     verify: bool = True,
     progress: Progress | None = None,
 ) -> bytes:
@@ -54,7 +61,8 @@ def compress(
     same direction, whatever the faces are. Vertices are numbered as they are met on a walk over
     the surface, which ``vertex_order`` tells; with ``keep_order`` they keep their numbers, faces
     do not. Which corner of a face comes first is not kept. Functions on the vertices and texture
-    coordinates come back exactly.
+    coordinates come back exactly, unless an error is allowed for them; like positions they are
+    predicted from those around, where that is shorter.
 
     Positions are rounded to a grid. Each vertex is predicted from those before it by local
     systems of Laplacians and of parallelograms, which depend on the faces and on positions that
@@ -72,14 +80,27 @@ def compress(
         1 to 30: the grid has 2^bits points along the longest side of the bounding box. 14 if
         neither is given. A vertex moves at most half the diagonal of a cell.
     mode
-        ``"grid"``: the points of the grid. ``"smooth"``: moved from there, within their cells, to
-        where the surface is smooth; less mean error for the same bytes where cells are not small
-        beside the edges, but a vertex can be a whole diagonal of a cell off: the file says how
-        much at most. ``"auto"``: whatever keeps the bound in the fewest bytes, as yet ``"grid"``.
+        ``"grid"``: the points of the grid. ``"smooth"``: whole steps of the grid from where each
+        vertex is expected, then moved to where the surface is smooth; fewer bytes for the same
+        error where cells are not small beside the edges, but a vertex can be a whole diagonal of a
+        cell off: the file says how much at most. ``"spectral"``: the codec of the chapter,
+        coefficients in the eigenvectors of Laplacians that the faces alone give, rounded to
+        multiples of the step of the grid, then smoothed in the same way; few bytes for a coarse
+        shape, and any beginning of the file is a coarser one (``decompress(..., partial=True)``).
+        ``"auto"``: with ``max_error`` the one that takes the fewest bytes, the
+        others tried where a coarse shape lets them win; else ``"grid"``.
+    terms
+        With ``"spectral"``, no more than that many of the lowest frequencies of each block of at
+        most 500 vertices (with the effort ``"fast"`` 250), the M of definition 21.
     effort
         ``"best"``, or ``"fast"``: about half the time, for some percent more bytes.
     keep_order
         Keep the numbers of the vertices; at most log2(n) bits for each.
+    function_errors
+        For functions of floating-point numbers, by name: how far the values at a vertex may move
+        (by the norm, where there are several). The others come back bit by bit.
+    uv_error
+        How far texture coordinates may move; without, they come back bit by bit.
     verify
         Decode the bytes and compare before they are returned.
     progress
@@ -102,7 +123,8 @@ def compress(
     Notes
     -----
     In O(n + m): about 60 microseconds per vertex with the best effort, 25 with the fast one, and
-    as much again to verify. The first call in a new installation compiles.
+    as much again to verify; ``"spectral"`` about 120 and 40; ``"auto"`` up to five times as much,
+    where the shape becomes coarse. The first call in a new installation compiles.
 
     References
     ----------
@@ -121,26 +143,26 @@ def compress(
     check_name("mode", mode, MODES)
     check_name("effort", effort, EFFORTS)
     _check(mesh, max_error, bits)
-    payload, found = encode_connectivity(mesh.topology)
-    x = mesh.vertices[found.vertices]
+    check_errors(mesh.vertex_data, function_errors or {})
+    terms = None if terms is None else whole("the number of terms", terms, 1, mesh.n_vertices)
+    if terms is not None and mode != "spectral":
+        raise MeshError(f"the mode {mode!r} has no terms: they belong to the mode 'spectral'")
     if max_error is None and bits is None:
         bits = _BITS
-    if mode == "smooth":
-        grid, choice = smooth_grid(x, found.faces, max_error, bits)
-    else:
-        grid, choice = grid_for(x, max_error, bits), 0
-    positions = encode_positions(x, found.faces, grid, effort, choice, progress)
-    sections = [Section(CONNECTIVITY, payload), Section(GRID, positions)]
+    wish = Wish(max_error, bits, mode, effort, terms)
+    payload, found = encode_connectivity(mesh.topology)
+    x = mesh.vertices[found.vertices]
+    positions = encode_wish(x, found.faces, wish, progress)
+    sections = [Section(CONNECTIVITY, payload), positions]
     if keep_order:
-        sections.append(Section(ORDER, encode_order(found.vertices)))
-    for name, values in mesh.vertex_data.items():
-        sections.append(Section(DATA, encode_array(name, values[found.vertices])))
-    if mesh.corner_uv is not None:
-        uv = _corners(mesh.corner_uv, mesh.topology, found)
-        sections.append(Section(UV, encode_array("uv", uv.reshape(-1, 6))))
-    data = pack(KEEPS_ORDER if keep_order else 0, sections)
+        order = Section(ORDER, encode_order(found.vertices))
+        sections.insert(2 if positions.kind == GRID else 1, order)
+    functions = {name: values[found.vertices] for name, values in mesh.vertex_data.items()}
+    uv = None if mesh.corner_uv is None else _corners(mesh.corner_uv, mesh.topology, found)
+    others = encode_attributes(functions, uv, found, effort, function_errors or {}, uv_error)
+    data = pack(_features(positions, others, keep_order), sections + others.sections)
     if verify:
-        _verify(data, mesh, found, max_error, keep_order)
+        _verify(data, mesh, found, others, max_error, keep_order)
     if path is not None:
         with replacing(path) as file:
             file.write(data)
@@ -172,6 +194,14 @@ def _check(mesh: Mesh, max_error: float | None, bits: int | None) -> None:
         raise MeshError(f"bits must be 1 to {MOST_BITS}, not {bits}")
 
 
+def _features(positions: Section, others: Attributes, keep_order: bool) -> int:
+    """Return the features that a reader must know."""
+    features = KEEPS_ORDER if keep_order else 0
+    features |= PROGRESSIVE if positions.kind == SPECTRUM else 0
+    kinds = {section.kind for section in others.sections}
+    return features | (PREDICTS if kinds & {PREDICTED, PREDICTED_UV} else 0)
+
+
 def _corners(uv: Floats, topology: Topology, found: Connectivity) -> Floats:
     """Sort what the corners have as the file sorts faces and corners."""
     old = topology.faces[found.source]
@@ -187,6 +217,7 @@ def _verify(
     data: bytes,
     mesh: Mesh,
     found: Connectivity,
+    others: Attributes,
     max_error: float | None,
     keep_order: bool,
 ) -> None:
@@ -204,15 +235,15 @@ def _verify(
             remedy="Allow a larger error, or move the mesh to the origin.",
         )
     same = np.array_equal(decoded.faces, faces) and error <= bound + rounding
-    for name, values in mesh.vertex_data.items():
-        kept = values if keep_order else values[found.vertices]
-        ordered = kept.astype(kept.dtype.newbyteorder("<"))
-        same = same and decoded.vertex_data[name].tobytes() == ordered.tobytes()
-    if mesh.corner_uv is not None:
-        uv = _corners(mesh.corner_uv, mesh.topology, found)
+    for name, values in others.functions.items():
+        ordered = values.astype(values.dtype.newbyteorder("<"))
+        back = decoded.vertex_data[name]
         same = (
-            same and decoded.corner_uv is not None and decoded.corner_uv.tobytes() == uv.tobytes()
+            same and (back[found.vertices] if keep_order else back).tobytes() == ordered.tobytes()
         )
+    if others.uv is not None:
+        uv = decoded.corner_uv
+        same = same and uv is not None and uv.tobytes() == others.uv.tobytes()
     if not same:
         raise BeltramiError(
             "decoding does not give the mesh back: please report this, it is a defect of beltrami"

@@ -12,28 +12,40 @@ from beltrami.io.source import load
 MAGIC = b"\x89BTM"
 VERSION = 1
 
-# Sections, in the order of the file; each at most once, but for data.
-CONNECTIVITY, GRID, ORDER, DATA, UV = range(1, 6)
+# Sections; each at most once, but for functions.
+CONNECTIVITY, GRID, ORDER, DATA, UV, SPECTRUM, PREDICTED, PREDICTED_UV = range(1, 9)
 NAMES = {
     CONNECTIVITY: "connectivity",
     GRID: "positions on a grid",
     ORDER: "order of the vertices",
     DATA: "functions",
     UV: "texture coordinates",
+    SPECTRUM: "positions in a spectrum",
+    PREDICTED: "predicted functions",
+    PREDICTED_UV: "predicted texture coordinates",
 }
+# Their order in the file; of one rank in any order.
+_RANKS = {CONNECTIVITY: 0, GRID: 1, ORDER: 2, SPECTRUM: 3, DATA: 4, PREDICTED: 4, UV: 5}
+_RANKS[PREDICTED_UV] = 6
+_SEVERAL = (DATA, PREDICTED)
 
 # Features that a reader must know; a bit of the sixth byte each.
-FEATURES = {1: "the order of the vertices is kept"}
-KEEPS_ORDER = 1
+FEATURES = {
+    1: "the order of the vertices is kept",
+    2: "beginnings with all faces and first coefficients are coarser shapes",
+    4: "functions are predicted",
+}
+KEEPS_ORDER, PROGRESSIVE, PREDICTS = FEATURES
 
 
 @dataclass(frozen=True)
 class Section:
-    """A section: its kind, its bytes, and where these begin in the file."""
+    """A section: its kind, its bytes, where these begin in the file, whether some are missing."""
 
     kind: int
     payload: bytes
     start: int = 0
+    is_cut: bool = False
 
     def reader(self, path: object) -> Reader:
         """Read its bytes."""
@@ -63,8 +75,11 @@ def pack(features: int, sections: list[Section]) -> bytes:
     return data
 
 
-def unpack(data: bytes, path: object) -> tuple[int, list[Section]]:
+def unpack(data: bytes, path: object, partial: bool = False) -> tuple[int, list[Section]]:
     """Return the features and the sections of a file, after all checks.
+
+    With ``partial`` the data may end anywhere after the number of sections: the last one that
+    is returned may be cut off, and has then no checksum.
 
     Raises
     ------
@@ -81,21 +96,30 @@ def unpack(data: bytes, path: object) -> tuple[int, list[Section]]:
     unknown = features & ~sum(FEATURES)
     if unknown:
         raise reader.fault(f"features {unknown:#04x} of a later beltrami, unknown here")
-    sections = [_section(reader) for _ in range(reader.varint(1 << 16, "sections"))]
+    sections: list[Section] = []
+    for _ in range(reader.varint(1 << 16, "sections")):
+        if partial and reader.position == len(data):
+            break
+        sections.append(_section(reader, partial))
     if reader.position != len(data):
         raise reader.fault(f"{len(data) - reader.position} bytes after the last section")
     kinds = [section.kind for section in sections]
-    if kinds != sorted(kinds) or any(kinds.count(k) > 1 for k in NAMES if k != DATA):
+    twice = [k for k in NAMES if kinds.count(k) > 1 and k not in _SEVERAL]
+    if kinds != sorted(kinds, key=_RANKS.__getitem__) or twice:
         raise reader.fault("the sections are in a wrong order, or one is there twice")
+    if not features & PREDICTS and any(k in (PREDICTED, PREDICTED_UV) for k in kinds):
+        raise reader.fault("predicted functions that were not announced")
     return features, sections
 
 
-def _section(reader: Reader) -> Section:
+def _section(reader: Reader, partial: bool) -> Section:
     kind = reader.varint()
     if kind not in NAMES:
         raise reader.fault(f"a section of the kind {kind}, unknown here")
     length = reader.varint()
     start = reader.position
+    if partial and start + length + 4 > len(reader.data):
+        return Section(kind, reader.rest()[:length], start, True)
     payload = reader.take(length)
     checksum = zlib.crc32(reader.data[: reader.position])
     if int.from_bytes(reader.take(4), "little") != checksum:

@@ -11,12 +11,14 @@ from beltrami.compression.container import (
     FEATURES,
     GRID,
     NAMES,
+    SPECTRUM,
     VERSION,
     Section,
     bytes_of,
     unpack,
 )
-from beltrami.compression.geometry import read_head
+from beltrami.compression.geometry import Head, read_head
+from beltrami.compression.spectral_head import SpectralHead, read_spectral_head
 from beltrami.errors import FileFormatError
 
 
@@ -31,9 +33,9 @@ class Contents:
     max_error
         No vertex is farther than that from where it was, but for the rounding of coordinates.
     step
-        Of the grid of positions.
+        Of the grid of positions, or of the coefficients.
     mode
-        ``"grid"``, or ``"smooth"``: moved within the cells of the grid.
+        ``"grid"``, ``"smooth"`` (moved within the cells of the grid) or ``"spectral"``.
     effort
         ``"best"`` or ``"fast"``.
     sections
@@ -42,6 +44,8 @@ class Contents:
         Bytes of the whole file.
     features
         In words.
+    terms
+        In the mode ``"spectral"``, how many coefficients the longest block has; else None.
     """
 
     n_vertices: int
@@ -53,6 +57,7 @@ class Contents:
     sections: tuple[tuple[str, int], ...]
     size: int
     features: tuple[str, ...]
+    terms: int | None = None
     version: int = VERSION
 
     def to_dict(self) -> dict[str, Any]:
@@ -74,27 +79,34 @@ def describe(source: bytes | str | os.PathLike[str]) -> Contents:
     --------
     >>> from beltrami.compression.compress import compress
     >>> from beltrami.mesh.shapes import icosphere
-    >>> contents = describe(compress(icosphere(1), max_error=0.01))
+    >>> contents = describe(compress(icosphere(1), max_error=0.01, mode="grid"))
     >>> contents.n_vertices, round(contents.max_error, 6), contents.effort
     (42, 0.01, 'best')
     """
     data, path = bytes_of(source)
     features, sections = unpack(data, path)
     by_kind = {section.kind: section for section in sections}
-    if CONNECTIVITY not in by_kind or GRID not in by_kind:
-        raise FileFormatError(path, "there are no faces, or no positions")
+    if CONNECTIVITY not in by_kind or (GRID in by_kind) == (SPECTRUM in by_kind):
+        raise FileFormatError(path, "there are no faces, or no positions, or two kinds of them")
     n = by_kind[CONNECTIVITY].reader(path).varint()
-    head = read_head(by_kind[GRID].reader(path))
+    head: Head | SpectralHead
+    if SPECTRUM in by_kind:
+        head = read_spectral_head(by_kind[SPECTRUM].reader(path), n)
+        mode, terms = "spectral", head.terms
+    else:
+        head = read_head(by_kind[GRID].reader(path))
+        mode, terms = ("smooth" if head.choice or head.is_free else "grid"), None
     return Contents(
         n,
         len(head.grid.origin),
         head.bound,
         head.grid.step,
-        "smooth" if head.choice else "grid",
+        mode,
         head.effort,
         tuple((NAMES[section.kind], _bytes_of(section)) for section in sections),
         len(data),
         tuple(text for bit, text in FEATURES.items() if features & bit),
+        terms,
     )
 
 

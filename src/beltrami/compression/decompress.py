@@ -8,23 +8,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import Floats, Integers
+from beltrami._arrays import Integers
 from beltrami._progress import Progress
+from beltrami.compression.attributes_reading import decode_attributes
 from beltrami.compression.connectivity import decode_connectivity
 from beltrami.compression.container import (
     CONNECTIVITY,
-    DATA,
     GRID,
     KEEPS_ORDER,
+    NAMES,
     ORDER,
-    UV,
+    PROGRESSIVE,
+    SPECTRUM,
     Section,
     bytes_of,
     unpack,
 )
-from beltrami.compression.functions import decode_array
 from beltrami.compression.geometry import decode_positions
 from beltrami.compression.ordering import decode_order
+from beltrami.compression.spectral_reading import decode_spectrum
 from beltrami.compression.varint import Reader
 from beltrami.errors import FileFormatError
 from beltrami.mesh.mesh import Mesh
@@ -36,8 +38,12 @@ def decompress(
     source: bytes | str | os.PathLike[str],
     max_vertices: int = MAX_VERTICES,
     progress: Progress | None = None,
+    *,
+    partial: bool = False,
 ) -> Mesh:
     """Read a compressed mesh; the same bytes give the same bits on every machine.
+
+    Chapter items: P58, P66, P68.
 
     Parameters
     ----------
@@ -47,6 +53,11 @@ def decompress(
         Refuse files that declare more: bounds time and memory where bytes cannot be trusted.
     progress
         Called with (vertices decoded, n).
+    partial
+        Take a file of the mode ``"spectral"`` that was cut off anywhere behind the first
+        coefficients: all faces, and the coarser shape of the coefficients that are there, of which
+        no bound is known. Functions that were cut off are left out. A whole file gives the whole
+        mesh.
 
     Raises
     ------
@@ -65,19 +76,16 @@ def decompress(
     <Mesh: 42 vertices in R³, 80 faces>
     """
     data, path = bytes_of(source)
-    features, sections = unpack(data, path)
+    features, sections = unpack(data, path, partial)
+    cut = sections.pop() if sections and sections[-1].is_cut else None
     faces, n = decode_connectivity(_the(CONNECTIVITY, sections, path), max_vertices)
-    x = decode_positions(_the(GRID, sections, path), faces, n, progress)
-    functions: dict[str, NDArray[Any]] = {}
-    uv: Floats | None = None
-    for section in sections:
-        if section.kind == DATA:
-            name, values = decode_array(section.reader(path), n)
-            if name in functions:
-                raise FileFormatError(path, f"two functions of the name {name!r}")
-            functions[name] = values
-        elif section.kind == UV:
-            uv = _checked_uv(section.reader(path), len(faces))
+    if features & PROGRESSIVE:
+        last = cut if cut is not None and cut.kind == SPECTRUM else None
+        reader = last.reader(path) if last else _the(SPECTRUM, sections, path)
+        x = decode_spectrum(reader, faces, n, progress, last is not None)
+    else:
+        x = decode_positions(_the(GRID, sections, path), faces, n, progress)
+    functions, uv = decode_attributes(sections, path, faces, n)
     if bool(features & KEEPS_ORDER) != any(section.kind == ORDER for section in sections):
         raise FileFormatError(path, "the order of the vertices is announced and not there")
     if features & KEEPS_ORDER:
@@ -93,14 +101,7 @@ def _the(kind: int, sections: list[Section], path: object) -> Reader:
     for section in sections:
         if section.kind == kind:
             return section.reader(path)
-    raise FileFormatError(path, f"there is no section of the kind {kind}")
-
-
-def _checked_uv(reader: Reader, m: int) -> Floats:
-    _, values = decode_array(reader, m)
-    if values.shape != (m, 6) or values.dtype != np.float64:
-        raise reader.fault("texture coordinates of a wrong shape")
-    return values.reshape(m, 3, 2)
+    raise FileFormatError(path, f"there is no section {NAMES[kind]!r}, or not the whole of it")
 
 
 def _sorted_back(values: NDArray[Any], order: Integers) -> NDArray[Any]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from beltrami.compression.varint import Reader, to_varints
 from beltrami.errors import MeshError
 
-_TYPES = {f"<{kind}{size}" for kind in "iuf" for size in (2, 4, 8)} | {"|u1", "|i1", "|b1"}
+TYPES = {f"<{kind}{size}" for kind in "iuf" for size in (2, 4, 8)} | {"|u1", "|i1", "|b1"}
 
 
 def encode_array(name: str, values: NDArray[Any]) -> bytes:
@@ -25,30 +25,41 @@ def encode_array(name: str, values: NDArray[Any]) -> bytes:
     ('height', array([0., 1., 2., 3., 4.]))
     """
     ordered = values.astype(values.dtype.newbyteorder("<"), order="C")
+    head = write_label(name, ordered)
+    planes = ordered.reshape(-1).view(np.uint8).reshape(-1, ordered.dtype.itemsize).T
+    return head + zlib.compress(planes.tobytes(), 9)
+
+
+def write_label(name: str, ordered: NDArray[Any]) -> bytes:
+    """Write the name, the type and the shape of an array of low bytes first."""
     kind = ordered.dtype.str
-    if kind not in _TYPES:
+    if kind not in TYPES:
         raise MeshError(
-            f"functions of the type {values.dtype} cannot be stored",
+            f"functions of the type {ordered.dtype} cannot be stored",
             remedy="Turn them into float64 or integers.",
         )
     label = name.encode()
-    planes = ordered.reshape(-1).view(np.uint8).reshape(-1, ordered.dtype.itemsize).T
     head = to_varints([len(label)]) + label + to_varints([len(kind)]) + kind.encode()
-    shape = to_varints([ordered.ndim - 1, *ordered.shape[1:]])
-    return head + shape + zlib.compress(planes.tobytes(), 9)
+    return head + to_varints([ordered.ndim - 1, *ordered.shape[1:]])
 
 
-def decode_array(reader: Reader, rows: int) -> tuple[str, NDArray[Any]]:
-    """Read an array with this many rows; no more memory than it declares is used."""
+def read_label(reader: Reader) -> tuple[str, str, list[int]]:
+    """Read (name, type, further axes)."""
     label = reader.take(reader.varint())
     kind = reader.take(reader.varint()).decode("latin-1")
-    if kind not in _TYPES:
+    if kind not in TYPES:
         raise reader.fault(f"an array of the type {kind!r}, unknown here")
     try:
         name = label.decode()
     except UnicodeDecodeError as cause:
         raise reader.fault("a name that is not UTF-8") from cause
     tail = [reader.varint(1 << 16, "columns") for _ in range(reader.varint(1, "axes"))]
+    return name, kind, tail
+
+
+def decode_array(reader: Reader, rows: int) -> tuple[str, NDArray[Any]]:
+    """Read an array with this many rows; no more memory than it declares is used."""
+    name, kind, tail = read_label(reader)
     size = np.dtype(kind).itemsize
     count = rows * math.prod(tail)
     deflated = reader.rest()

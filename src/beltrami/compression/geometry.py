@@ -8,48 +8,38 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beltrami._arrays import Floats, Integers
-from beltrami._progress import Progress, stages
+from beltrami._progress import Progress
 from beltrami.compression import grid as grids
 from beltrami.compression.grid import PositionGrid
-from beltrami.compression.guesses import BEST, FAST
-from beltrami.compression.neighbourhood import Neighbourhood, coding_order, look_around
-from beltrami.compression.positions import code_positions, new_coder
-from beltrami.compression.range_coder import (
-    POSITION,
-    finished,
-    new_decoder,
-    new_encoder,
-    ran_dry,
-    readable,
+from beltrami.compression.neighbourhood import Neighbourhood
+from beltrami.compression.numbers import (
+    EFFORTS,
+    decode_numbers,
+    decode_offsets,
+    encode_numbers,
+    encode_offsets,
+    reader_is_done,
+    surroundings,
 )
-from beltrami.compression.smoothing import WEIGHTS, smoothed
-from beltrami.compression.tables import Table
+from beltrami.compression.smoothing import WEIGHTS, best_choice, smoothed
 from beltrami.compression.varint import Reader, to_varints
 
-EFFORTS = ("best", "fast")
 MOST_COORDINATES = 256
-_SOLVES = (BEST, FAST)
-_BLOCK = 2048  # vertices between two looks at the progress
-
-
-def _groups(d: int) -> range:
-    return range(0, d, 3)
-
-
-def surroundings(faces: Integers, n: int) -> Neighbourhood:
-    """Look around, at faces of three vertices."""
-    a, b, c = faces.T
-    return look_around(faces[(a != b) & (b != c) & (c != a)], n)
+FREE = len(WEIGHTS) + 1  # added to the choice of smoothing
 
 
 @dataclass(frozen=True)
 class Head:
-    """What precedes the positions; ``bound`` is that of the error."""
+    """What precedes the positions.
+
+    ``bound`` is that of the error; ``is_free`` where numbers count from what is expected.
+    """
 
     grid: PositionGrid
     effort: str
     choice: int
     bound: float
+    is_free: bool = False
 
 
 def read_head(reader: Reader) -> Head:
@@ -59,18 +49,13 @@ def read_head(reader: Reader) -> Head:
         raise reader.fault(f"expected 2 or more coordinates, found {d}")
     effort = EFFORTS[reader.varint(len(EFFORTS) - 1, "effort")]
     is_short = bool(reader.varint(1, "precision"))
-    choice = reader.varint(len(WEIGHTS), "smoothing")
+    choice = reader.varint(FREE + len(WEIGHTS), "smoothing")
     grid = grids.from_bytes(reader.take((4 if is_short else 8) * (d + 1)), is_short)
     if not (np.isfinite(grid.origin).all() and 0 < grid.step < np.inf):
         raise reader.fault("the grid of positions has no positive step, or no finite origin")
     bound = float(np.frombuffer(reader.take(8), "<f8")[0]) if choice else grid.bound
-    return Head(grid, effort, choice, bound)
-
-
-def largest_error(x: Floats, grid: PositionGrid, near: Neighbourhood, choice: int) -> float:
-    """Return how far the decoded positions will be from x, at most."""
-    decoded = grid.points(smoothed(grid.round(x), near, choice))
-    return float(np.sqrt(((decoded - x) ** 2).sum(axis=1)).max()) if len(x) else 0.0
+    is_free = choice >= FREE
+    return Head(grid, effort, choice - FREE if is_free else choice, bound, is_free)
 
 
 def _rounded_up(x: float) -> NDArray[np.float64]:
@@ -82,30 +67,35 @@ def encode_positions(
     faces: Integers,
     grid: PositionGrid,
     effort: str,
-    choice: int = 0,
     progress: Progress | None = None,
 ) -> bytes:
-    """Write positions (n, d), rounded to the grid; ``choice`` of smoothing is told the decoder."""
+    """Write positions (n, d), rounded to the grid."""
     numbers = grid.round(x)
     n, d = numbers.shape
     near = surroundings(faces, n)
-    data = to_varints([d, EFFORTS.index(effort), int(grid.is_short), choice])
-    data += grids.to_bytes(grid)
-    if choice:
-        data += _rounded_up(largest_error(x, grid, near, choice)).tobytes()
-    for first in _groups(d):
-        part = np.zeros((n, 3), np.int64)
-        part[:, : d - first] = numbers[:, first : first + 3]
-        size = 9 * n + 1024
-        while True:
-            buffer, state = np.zeros(size, np.uint8), new_encoder()
-            _run(part, near, effort, state, buffer, progress)
-            payload = finished(state, buffer)
-            if payload is not None:
-                break
-            size = int(state[POSITION]) + 1024
-        data += to_varints([len(payload)]) + payload
-    return data
+    data = to_varints([d, EFFORTS.index(effort), int(grid.is_short), 0])
+    return data + grids.to_bytes(grid) + encode_numbers(numbers, near, effort, progress)
+
+
+def encode_freely(
+    x: Floats,
+    near: Neighbourhood,
+    grid: PositionGrid,
+    effort: str,
+    progress: Progress | None = None,
+) -> tuple[bytes, float]:
+    """Write positions (n, d) at whole numbers of steps from where they are expected, smoothed.
+
+    Returns the bytes and the largest error, at most 1.1 sqrt(d) steps.
+    """
+    exact = (x - grid.origin) / grid.step
+    payload, placed = encode_offsets(exact, near, effort, progress)
+    choice = best_choice(exact, placed, near)
+    found = grid.points(smoothed(placed, near, choice))
+    error = float(np.sqrt(((found - x) ** 2).sum(axis=1)).max(initial=0.0))
+    head = [x.shape[1], EFFORTS.index(effort), int(grid.is_short), FREE + choice]
+    data = to_varints(head) + grids.to_bytes(grid) + _rounded_up(error).tobytes()
+    return data + payload, error
 
 
 def decode_positions(
@@ -115,46 +105,11 @@ def decode_positions(
     head = read_head(reader)
     d, grid = len(head.grid.origin), head.grid
     near = surroundings(faces, n)
-    numbers = np.zeros((n, d), np.int64)
-    for first in _groups(d):
-        buffer = readable(reader.take(reader.varint()))
-        part = np.zeros((n, 3), np.int64)
-        state = new_decoder(buffer)
-        _run(part, near, head.effort, state, buffer, progress)
-        if ran_dry(state, buffer):
-            raise reader.fault("fewer positions than vertices")
-        numbers[:, first : first + 3] = part[:, : d - first]
+    read = decode_offsets if head.is_free else decode_numbers
+    numbers = read(reader, (n, d), near, head.effort, progress)
     reader_is_done(reader)
     with np.errstate(over="ignore"):
         x = grid.points(smoothed(numbers, near, head.choice))
     if not np.isfinite(x).all():
         raise reader.fault("positions beyond the largest number")
     return x
-
-
-def reader_is_done(reader: Reader) -> None:
-    """Raise if bytes are left."""
-    left = len(reader.data) - reader.position
-    if left:
-        raise reader.fault(f"{left} bytes too many in this section")
-
-
-def _run(
-    numbers: Integers,
-    near: Neighbourhood,
-    effort: str,
-    state: Table,
-    buffer: NDArray[np.uint8],
-    progress: Progress | None,
-) -> None:
-    """Code all numbers, block by block."""
-    n = len(numbers)
-    solves = _SOLVES[EFFORTS.index(effort)]
-    coder = new_coder(n, len(solves))
-    order = coding_order(near)
-    done = 0
-    for size in stages(n, progress, _BLOCK):
-        code_positions(numbers, order, done, done + size, solves, near, coder, state, buffer)
-        done += size
-        if ran_dry(state, buffer):
-            break

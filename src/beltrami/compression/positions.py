@@ -11,6 +11,7 @@ from beltrami._jit import kernel
 from beltrami.compression.blending import CLASSES, MEANS, Blend, learn, new_blend, note, predict
 from beltrami.compression.guesses import frame, guess
 from beltrami.compression.patches import Patch, gather, new_patch
+from beltrami.compression.range_coder import DECODING
 from beltrami.compression.residuals import (
     LAPLACE,
     LOGISTIC,
@@ -21,6 +22,7 @@ from beltrami.compression.residuals import (
 from beltrami.compression.tables import whole
 
 _FIRST = 16  # the spread of a number of which nothing is known
+DEAD_ZONE = 0.6  # numbers from the blend below that are 0
 _ROOT = 1.4142135623730951
 
 
@@ -31,6 +33,9 @@ class Coder(NamedTuple):
     ----------
     x : (n, 3) float64
         The positions, whole numbers, as far as they are known.
+    truth : (n, 3) or (0, 3) float64
+        With n rows, positions are not whole numbers but whole numbers from the slow blend: the
+        nearest to these when writing. Without, they are the whole numbers themselves.
     known : (n,) bool
         Which they are.
     covariance : (2, 3, 3) float64
@@ -40,6 +45,7 @@ class Coder(NamedTuple):
     """
 
     x: NDArray[np.float64]
+    truth: NDArray[np.float64]
     known: NDArray[np.bool_]
     covariance: NDArray[np.float64]
     axes: NDArray[np.float64]
@@ -49,10 +55,11 @@ class Coder(NamedTuple):
     opinions: Opinions
 
 
-def new_coder(n: int, solves: int) -> Coder:
+def new_coder(n: int, solves: int, truth: NDArray[np.float64]) -> Coder:
     """Prepare to code n positions with so many solves for each."""
     return Coder(
         np.zeros((n, 3)),
+        truth,
         np.zeros(n, np.bool_),
         np.zeros((2, 3, 3)),
         np.zeros((3, 3)),
@@ -83,8 +90,6 @@ def code_positions(
         frame(v, near, coder.known, coder.x, blend.means[0], coder.mean, coder.axes)
         _spread(c, vertices, coder)
         _code_vertex(v, c, i, numbers, coder, state, buffer)
-        for q in range(3):
-            coder.x[v, q] = numbers[v, q]
         learn(c, coder.x[v], blend)
         note(v, c, coder.x[v], coder.axes, blend)
         coder.known[v] = True
@@ -216,6 +221,12 @@ def _apart(a: float, b: float) -> int:
 
 
 @kernel
+def _nearest(x: float) -> int:
+    """Round to a whole number, and a little more than half to 0: that costs less than it errs."""
+    return whole(0) if abs(x) < DEAD_ZONE else whole(np.floor(x + 0.5))
+
+
+@kernel
 def _code_vertex(v: int, c: int, i: int, numbers: Any, coder: Any, state: Any, buffer: Any) -> None:
     """Write or read the three numbers of a vertex."""
     opinions = coder.opinions
@@ -224,14 +235,23 @@ def _code_vertex(v: int, c: int, i: int, numbers: Any, coder: Any, state: Any, b
     e0 = e1 = 0.0
     for q in range(3):
         middle, scale = _form_opinions(q, e0, e1, coder)
+        base = 0.0
+        if coder.truth.shape[0]:
+            base = coder.blend.means[0, q]
+            middle -= base
+            for e in range(opinions.middle.size):
+                opinions.middle[e] -= base
+            if not state[DECODING]:
+                numbers[v, q] = _nearest(coder.truth[v, q] - base)
         if i < 3:
             scale = max(scale, float(1 << _FIRST))
         x = code_near(numbers[v, q], middle, scale, opinions, state, buffer)
         numbers[v, q] = x
+        coder.x[v, q] = base + x
         nearest = whole(np.floor(middle + 0.5))
         away = abs(x - nearest)
         k[4] = k[3]
         k[3] = min(7, 2 * away // (1 + whole(scale)) if scale > 2.0 and q else away)
-        e1 = x - coder.blend.means[0, q]
+        e1 = coder.x[v, q] - coder.blend.means[0, q]
         if q == 0:
             e0 = e1

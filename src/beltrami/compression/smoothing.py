@@ -21,7 +21,7 @@ from beltrami.compression.tables import whole
 WEIGHTS = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
 
 
-def smoothed(numbers: Integers, near: Neighbourhood, choice: int) -> Floats:
+def smoothed(numbers: Integers | Floats, near: Neighbourhood, choice: int) -> Floats:
     """Return positions (n, d) in steps of the grid, each within half a step of its number.
 
     Chebyshev's iteration with a fixed number of rounds solves (Id + μ PᵀP / 6) x = q: sums,
@@ -38,7 +38,7 @@ def smoothed(numbers: Integers, near: Neighbourhood, choice: int) -> Floats:
     return x
 
 
-def best_choice(x: Floats, numbers: Integers, near: Neighbourhood) -> int:
+def best_choice(x: Floats, numbers: Integers | Floats, near: Neighbourhood) -> int:
     """Return the choice with the least mean square distance to the true positions, in steps."""
     losses = []
     for choice in range(len(WEIGHTS) + 1):

@@ -149,7 +149,7 @@ class FourierBasis(Carded):
         result = self.inverse((factors * coefficients.T).T)
         return result + rest * (values - self.inverse(coefficients)) if rest else result
 
-    def truncate(self, f: ArrayLike, m: int) -> Floats:
+    def truncate(self, f: ArrayLike, m: int, *, largest: bool = False) -> Floats:
         r"""Return the first m terms, :math:`f_m = \sum_{i<m} \hat f_i \varphi_i` (definition 21).
 
         The projection of f on the m lowest frequencies, in the norm of B: constants are kept from
@@ -157,25 +157,34 @@ class FourierBasis(Carded):
         eigenvectors of the normalised Laplacian are taken with plain inner products (E78). It
         leaves out high frequencies, whatever their coefficients (E86).
 
-        Chapter items: D21.
+        With ``largest`` the m terms of the largest :math:`|\hat f_i|` instead, of each column its
+        own and of equals the lowest: the best approximation by m terms, which is not linear in f.
+
+        Chapter items: D21, P66.
 
         Raises
         ------
         BeltramiError
             If m is not a whole number from 0 to k.
         """
-        kept = self.eigenvectors[:, : whole("the number of terms", m, 0, self.k)]
+        count = whole("the number of terms", m, 0, self.k)
+        if largest:
+            coefficients = self.forward(f)
+            order = np.argsort(-np.abs(coefficients), axis=0, kind="stable")
+            np.put_along_axis(coefficients, order[count:], 0.0, axis=0)
+            return self.inverse(coefficients)
+        kept = self.eigenvectors[:, :count]
         return np.asarray(kept @ (kept.T @ (self.mass @ as_function(f, self.n))))
 
-    def error_decay(self, f: ArrayLike) -> Floats:
+    def error_decay(self, f: ArrayLike, *, largest: bool = False) -> Floats:
         r"""Return the errors :math:`\|f - f_m\|_B` of m = 0, 1 ... k terms, (k + 1,) or (k + 1, c).
 
         The root of the energy left out, :math:`E(m) = \sum_{i \ge m} \hat f_i^2` (l. 615), and of
         what lies outside the span: sums of small terms first, not differences of large ones. Where
         coefficients decay like :math:`i^{-s}`, E decays like :math:`m^{1-2s}`; the converse fails
-        (E79).
+        (E79). With ``largest`` the m largest coefficients are kept, as ``truncate`` does then.
 
-        Chapter items: U35, P61.
+        Chapter items: U35, P61, P66.
         """
         values = as_function(f, self.n)
         scale = float(np.abs(values).max(initial=0.0)) or 1.0
@@ -183,7 +192,8 @@ class FourierBasis(Carded):
         coefficients = self.forward(scaled)
         outside = scaled - self.inverse(coefficients)
         left = np.maximum((outside * (self.mass @ outside)).sum(axis=0, keepdims=True), 0.0)
-        parts = np.concatenate([left, coefficients[::-1] ** 2])
+        squares = coefficients[::-1] ** 2
+        parts = np.concatenate([left, np.sort(squares, axis=0) if largest else squares])
         return np.asarray(scale * np.sqrt(np.cumsum(parts, axis=0)[::-1]))
 
     def _factors(self, h: ArrayLike) -> Floats:

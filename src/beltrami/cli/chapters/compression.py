@@ -13,6 +13,7 @@ from beltrami.mesh.mesh import Mesh
 
 BITS = (6, 8, 10, 12, 14)
 COARSE = 6
+TERMS = (4, 16, 64)
 HEAD = ("bits of the grid", "bytes", "bits per vertex", "mean error", "moved to likely places")
 
 
@@ -32,6 +33,7 @@ def compression(stage: Stage) -> Chapter:
         errors = [_error(mesh, each, order) for each in found]
         rows.append((str(bits), str(len(plain)), f"{size:.2f}", *map(number, errors)))
     data = compress(mesh, stage.folder / "mesh.btm", max_error=_tolerance(mesh))
+    coarse = [_few_terms(mesh, terms) for terms in TERMS]
     sections = dict(describe(data).sections)
     return Chapter(
         "Compression",
@@ -43,6 +45,10 @@ def compression(stage: Stage) -> Chapter:
             "coded bit by bit, with probabilities that many models mix.",
             f"Within a ten-thousandth of the diagonal: {len(data)} bytes, "
             f"{sections['connectivity']} of them for the faces.",
+            "The faces give eigenvectors too, so that a file can hold coefficients instead of "
+            "positions: the fewest bytes for a coarse shape, and any beginning of it is a coarser "
+            f"one. The first {', '.join(map(str, TERMS))} of each block of vertices: "
+            f"{', '.join(str(len(each)) for each in coarse)} bytes.",
         ),
         (HEAD, *rows),
         (
@@ -51,14 +57,26 @@ def compression(stage: Stage) -> Chapter:
                 f"The mesh; on the grid of {COARSE} bits; moved within the cells of that grid.",
                 [stage.mesh, *shown],
             ),
+            stage.draw(
+                "terms.png",
+                f"Of {', '.join(map(str, TERMS))} eigenvectors of each block of 250 vertices.",
+                [_numbered_back(decompress(each), order) for each in coarse],
+            ),
         ),
         (("mesh.btm", "the mesh within a ten-thousandth of its diagonal"),),
         (
             f"beltrami compress {stage.name} --max-error 1e-4 --relative -o mesh.btm",
+            f"beltrami compress {stage.name} --mode spectral --terms {TERMS[-1]} -o coarse.btm",
             "beltrami info mesh.btm",
             "beltrami decompress mesh.btm -o decompressed.ply",
         ),
     )
+
+
+def _few_terms(mesh: Mesh, terms: int) -> bytes:
+    """Compress by so many coefficients, rounded as the grid of 10 bits is."""
+    count = min(terms, mesh.n_vertices)
+    return compress(mesh, bits=10, mode="spectral", terms=count, effort="fast", verify=False)
 
 
 def _tolerance(mesh: Mesh) -> float:
