@@ -14,10 +14,11 @@ from beltrami.batch.memory import (
 )
 from beltrami.batch.parameters import Choice, Flag, Number, Whole
 from beltrami.batch.verb import Options, Scene, Told, Verb, table
-from beltrami.compression.compress import MODES, compress
+from beltrami.compression.choosing import MODES
+from beltrami.compression.compress import compress
 from beltrami.compression.contents import describe
-from beltrami.compression.geometry import EFFORTS
 from beltrami.compression.grid import MOST_BITS
+from beltrami.compression.numbers import EFFORTS
 from beltrami.diffusion.denoise import DENOISING_METHODS, denoise
 from beltrami.diffusion.smooth_mesh import KEPT, smooth_mesh
 from beltrami.diffusion.smoothing_methods import SMOOTHING_METHODS
