@@ -7,7 +7,7 @@ from beltrami.display.bake import bake, colorize
 from beltrami.display.texture import checkerboard
 from beltrami.io.picture import as_picture
 from beltrami.io.registry import read_mesh, write_mesh
-from beltrami.mesh.shapes import icosphere, torus
+from beltrami.mesh.shapes import cylinder, icosphere, torus
 from beltrami.parameterization.atlas import atlas
 
 
@@ -55,6 +55,13 @@ def test_functions_are_baked(beltrami, ball, tmp_path):
     assert done.exit_code == 0, done.stderr
     expected = colorize(bake(atlas(read_mesh(ball), size=64), f), None, (-2.0, 2.0))
     np.testing.assert_allclose(as_picture(tmp_path / "out.png") * 255, expected)
+
+
+def test_holes_are_kept_or_cut(beltrami, tmp_path):
+    write_mesh(tmp_path / "ring.obj", cylinder(12, 3))
+    words = ("atlas", tmp_path / "ring.obj", "-o", tmp_path / "out.obj", "--max-distortion", 2)
+    assert "atlas: 1 chart, 0 edges cut" in beltrami(*words).stdout
+    assert "atlas: 1 chart" not in beltrami(*words, "--cut-holes").stdout
 
 
 def test_json(beltrami, ball, tmp_path):

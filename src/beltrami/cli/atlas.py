@@ -35,7 +35,9 @@ def atlas(
         float, Option(help="Symmetric Dirichlet energy of a chart, above 1 = isometry.")
     ] = 1.1,
     cells: Annotated[str, Option(help="farthest or spectral: of the first charts.")] = "farthest",
-    holes: Annotated[str, Option(help="fill: charts may have them; or cut.")] = "fill",
+    cut_holes: Annotated[
+        bool, Option("--cut-holes", help="Make disks of all charts, rather than keep holes.")
+    ] = False,
     seams: Annotated[
         int, Option(min=0, help="Up to so many cuts into a chart before it is cut in two.")
     ] = 2,
@@ -77,7 +79,7 @@ def atlas(
             count,
             max_distortion=max_distortion,
             cells=cells,
-            holes=holes,
+            holes="cut" if cut_holes else "fill",
             seams=seams,
             size=size,
             padding=padding,

@@ -145,13 +145,17 @@ def atlas(
         faces = waiting.pop()
         number, corners = np.unique(filled.mesh.faces[faces], return_inverse=True)
         part = Mesh(filled.mesh.vertices[number], corners.reshape(-1, 3))
-        found = parameterize(part, method, seams=seams, strict=False)
-        made = _charts(found, faces, filled.apart.vertex_map, number, mesh.n_faces)
-        good = found.is_bijective and all(
-            _distortion(chart, mesh) <= max_distortion and not _comes_near_itself(chart, mesh, gap)
-            for chart in made
-        )
-        if len(faces) == 1 or good:
+        for allowed in sorted({0, seams}):  # a chart that is good without a seam gets none
+            found = parameterize(part, method, seams=allowed, strict=False)
+            made = _charts(found, faces, filled.apart.vertex_map, number, mesh.n_faces)
+            good = found.is_bijective and all(
+                _distortion(chart, mesh) <= max_distortion
+                and not _comes_near_itself(chart, mesh, gap)
+                for chart in made
+            )
+            if good or len(faces) == 1:
+                break
+        if good or len(faces) == 1:
             charts += made
             mapped += sum(len(chart.faces) for chart in made)
         else:
