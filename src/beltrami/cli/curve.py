@@ -12,15 +12,24 @@ import typer
 from beltrami.cli.console import print_json, waiting
 
 BITS = range(6, 15)
-COLUMNS = ("bits", "bytes", "bits_per_vertex", "rms", "rms_smooth", "largest", "draco_bytes")
-_HEAD = "bits     bytes  bits/vertex  rms error  rms, smooth  largest  Draco's bytes"
+COLUMNS = (
+    "bits",
+    "bytes",
+    "bits_per_vertex",
+    "rms",
+    "largest",
+    "draco_bytes",
+    "bytes_smooth",
+    "rms_smooth",
+)
+_HEAD = "bits     bytes  bits/vertex  rms error  largest   smooth: bytes, rms error  Draco's bytes"
 
 
 def tell_curve(path: Path, effort: str, json: bool) -> None:
     """Write a table of grids: bytes, and errors as parts of the diagonal of the bounding box.
 
     The functions on the mesh are left out, as they are by Draco's bytes: its best level, the same
-    grid. The mode "smooth" has the same bytes as the grid, but for eight.
+    grid.
     """
     from beltrami.io.registry import read_mesh
     from beltrami.mesh.mesh import Mesh
@@ -36,10 +45,11 @@ def tell_curve(path: Path, effort: str, json: bool) -> None:
         print_json([dict(zip(COLUMNS, row, strict=True)) for row in rows])
         return
     typer.echo(_HEAD)
-    for bits, size, rate, rms, smooth, largest, draco in rows:
+    for bits, size, rate, rms, largest, draco, small, smooth in rows:
         other = "-" if draco is None else f"{draco} ({size / draco:.2f} of them)"
         typer.echo(
-            f"{bits:4} {size:9} {rate:12.2f} {rms:10.2e} {smooth:12.2e} {largest:8.1e}  {other}"
+            f"{bits:4} {size:9} {rate:12.2f} {rms:10.2e} {largest:8.1e} "
+            f"{small:15} {smooth:11.2e}  {other}"
         )
 
 
@@ -57,7 +67,8 @@ def _row(mesh: Any, bits: int, effort: str) -> tuple[Any, ...]:
         sizes.append(len(data))
         errors.append((float(np.sqrt((away**2).mean())), float(away.max())))
     rate = 8 * sizes[0] / mesh.n_vertices
-    return bits, sizes[0], rate, errors[0][0], errors[1][0], errors[0][1], _draco(mesh, bits)
+    (rms, largest), (smooth, _) = errors
+    return bits, sizes[0], rate, rms, largest, _draco(mesh, bits), sizes[1], smooth
 
 
 def _draco(mesh: Any, bits: int) -> int | None:
