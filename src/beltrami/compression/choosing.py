@@ -84,7 +84,9 @@ def _stepping(x: Floats, max_error: float, factor: float) -> PositionGrid:
     """Return a grid with the step ``factor`` times the bound."""
     grid = grid_for(x, max_error, None)
     step = max_error * min(factor, 4.0)
-    return PositionGrid(grid.origin, float(np.float32(step)) if grid.is_short else step)
+    if grid.is_short:  # its numbers are float32, which ends at 3e38
+        step = float(np.float32(min(step, float(np.finfo(np.float32).max))))
+    return PositionGrid(grid.origin, step)
 
 
 def _steps(x: Floats, max_error: float | None, bits: int | None) -> list[PositionGrid]:

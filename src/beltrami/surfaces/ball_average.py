@@ -85,6 +85,7 @@ def ball_average_laplacian(
     >>> float(ball_average_laplacian(plane, lambda x, y: x**2 + 3 * y, 0, 0, 0.5).round(9))
     2.0
     """
+    checks.require_surface(surface)
     check_name("mean", over, MEANS)
     if not isinstance(radius, Real) or not 0 < radius < np.inf:
         raise SurfaceError(f"the radius is {shown(radius)} where a positive number is needed")
