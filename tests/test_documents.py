@@ -44,7 +44,7 @@ def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
     bt.write_mesh("scan.ply", bt.Mesh([*blob.vertices, [9, 9, 9]], blob.faces))
     commands = re.findall(r"^    beltrami (.*?)(?:  +#.*)?$", README, re.MULTILINE)
     commands = [c for c in commands if not c.startswith("tour -o")]
-    assert len(commands) == 17
+    assert len(commands) == 18
     for command in commands:
         done = CliRunner().invoke(app, command.split())
         assert done.exit_code == 0, (command, done.output)
