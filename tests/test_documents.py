@@ -2,6 +2,7 @@
 
 import re
 import runpy
+import shlex
 from pathlib import Path
 
 import pytest
@@ -46,7 +47,7 @@ def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
     commands = [c for c in commands if not c.startswith("tour -o")]
     assert len(commands) == 18
     for command in commands:
-        done = CliRunner().invoke(app, command.split())
+        done = CliRunner().invoke(app, shlex.split(command))
         assert done.exit_code == 0, (command, done.output)
     assert (tmp_path / "tour" / "index.html").is_file()
 
