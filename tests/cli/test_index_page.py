@@ -52,9 +52,11 @@ def test_everything_is_escaped():
 
 
 def test_the_contents_lead_to_the_chapters():
-    page = seen("t", [], [Chapter("The first", "", ("x",)), Chapter("Second", "3.1", ("y",))])
-    assert page.attributes["a", "href"] == ["#the-first", "#second"]
-    assert page.attributes["h2", "id"] == ["the-first", "second"]
+    page = seen(
+        "t", [], [Chapter("The first, or not?", "", ("x",)), Chapter("Second", "3.1", ("y",))]
+    )
+    assert page.attributes["a", "href"] == ["#the-first-or-not", "#second"]
+    assert page.attributes["h2", "id"] == ["the-first-or-not", "second"]
     assert "".join(page.text).count("Section") == 1
     assert not {"img", "table", "pre", "ul"} & set(page.tags)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from html import escape
 
@@ -51,7 +52,7 @@ def index_page(title: str, notes: Sequence[str], chapters: Sequence[Chapter]) ->
 
 
 def _anchor(chapter: Chapter) -> str:
-    return escape(chapter.title.lower().replace(" ", "-"))
+    return re.sub(r"\W+", "-", chapter.title.lower()).strip("-")
 
 
 def _section(chapter: Chapter) -> str:
