@@ -81,7 +81,7 @@ def test_a_graph_without_positions():
 
 @pytest.mark.parametrize(
     "parts", [0, -1, 2.5, "two", 13, [0, 1], np.zeros(12), np.r_[[-1], np.zeros(11, int)],
-              np.full(12, 1), [[0] * 12], None, True]
+              np.full(12, 1), [[0] * 12], np.full(12, 2**60), None, True]
 )  # fmt: skip
 def test_what_is_no_partition(parts):
     pair = bt.laplacian(bt.shapes.icosphere(0))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import SupportsIndex
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -74,7 +73,7 @@ class RowBlock:
         return np.concatenate([np.arange(self.start, self.start + len(self.owned)), self.ghosts])
 
 
-def partition_rows(laplacian: Laplacian, parts: SupportsIndex | ArrayLike) -> tuple[RowBlock, ...]:
+def partition_rows(laplacian: Laplacian, parts: ArrayLike) -> tuple[RowBlock, ...]:
     r"""Cut a pair (L, B) into blocks of rows, one for each process of a distributed solver.
 
     Parameters
@@ -126,15 +125,16 @@ def partition_rows(laplacian: Laplacian, parts: SupportsIndex | ArrayLike) -> tu
     )
 
 
-def _labels(pair: Laplacian, parts: SupportsIndex | ArrayLike) -> Integers:
+def _labels(pair: Laplacian, parts: ArrayLike) -> Integers:
     """Return the block of each vertex."""
-    given = rectangular(parts)  # type: ignore[arg-type]
+    given = rectangular(parts)
     if given.ndim == 0:
         return _cut(pair, whole("the number of blocks", parts, 1, pair.n))
     if given.shape != (pair.n,) or given.dtype.kind not in "iu":
         raise MeshError(f"the blocks of {pair.n} vertices are as many whole numbers")
     labels = given.astype(np.int64)
-    if (labels < 0).any() or (np.bincount(labels) == 0).any():
+    outside = (labels < 0) | (labels >= pair.n)  # a block for each vertex at most
+    if outside.any() or (np.bincount(labels) == 0).any():
         raise MeshError("blocks count from 0, and each has a vertex at least")
     return labels
 
