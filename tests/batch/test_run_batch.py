@@ -1,5 +1,6 @@
 import errno
 import json
+import os
 import resource
 import sys
 import threading
@@ -45,6 +46,21 @@ def test_one_row_for_each_mesh_good_or_corrupt(meshes, tmp_path, table, manifest
     assert list(lines["0.ply"]["seconds"]) == ["reading", "repair", "spectrum", "descriptors"]
     assert found.failures[0].source.endswith("bad.ply")
     assert "spectrum" in lines["0.ply"]["files"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names of other systems are Unicode")
+def test_names_that_are_no_unicode_lose_nothing(meshes, tmp_path, table, manifest):
+    good, bad = (os.fsdecode(os.fsencode(meshes) + name) for name in (b"/\xff.ply", b"/\xfe.ply"))
+    os.rename(meshes / "0.ply", good)
+    os.rename(meshes / "bad.ply", bad)
+    for sources in (meshes, [good, bad]):
+        run(sources, tmp_path / "out")
+        rows = table(tmp_path / "out")
+        assert (rows["\\udcff.ply"]["outcome"], rows["\\udcfe.ply"]["outcome"]) == (
+            "done",
+            "failed",
+        )
+        assert manifest(tmp_path / "out")[1].keys() == rows.keys()
 
 
 def test_files_are_there_under_the_names_of_their_contents(meshes, tmp_path, table):

@@ -72,6 +72,17 @@ def find_sources(sources: Sources, out: str | None = None) -> Found:
     return Found(tuple(ordered), left_out)
 
 
+def readable(text: str) -> str:
+    r"""Return a text that UTF-8 can write: names of files may be bytes that mean nothing there.
+
+    Examples
+    --------
+    >>> print(readable("caf\udce9.ply"))
+    caf\udce9.ply
+    """
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
 def _expanded(text: str) -> tuple[list[Source], bool]:
     """Return the files of a name or a pattern, and whether each was named by itself."""
     if "://" in text or "::" in text:
@@ -80,7 +91,7 @@ def _expanded(text: str) -> tuple[list[Source], bool]:
         below = os.path.join(glob.escape(text), "**")
         return list(_locally(glob.iglob(below, recursive=True))), False
     if os.path.exists(text):
-        return [Source(text, os.path.abspath(text))], True
+        return [Source(readable(text), os.path.abspath(text))], True
     if any(sign in text for sign in _MAGIC):
         return list(_locally(glob.iglob(text, recursive=True))), False
     raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), text)
@@ -89,7 +100,7 @@ def _expanded(text: str) -> tuple[list[Source], bool]:
 def _locally(names: Iterable[str]) -> Iterator[Source]:
     for name in names:
         if os.path.isfile(name):
-            yield Source(name, os.path.abspath(name))
+            yield Source(readable(name), os.path.abspath(name))
 
 
 def _of_url(url: str) -> tuple[list[Source], bool]:

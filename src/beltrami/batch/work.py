@@ -16,6 +16,7 @@ from beltrami.batch.failures import StoreError, TooLargeError
 from beltrami.batch.pipeline import Pipeline
 from beltrami.batch.reading import Input, mesh_of, read_input
 from beltrami.batch.record import FAILED, Problem, Record, decoded
+from beltrami.batch.sources import readable
 from beltrami.batch.store import Kept, Store, work_name
 from beltrami.batch.verb import Scene, Size
 from beltrami.errors import BeltramiError, MissingExtraError
@@ -197,7 +198,7 @@ def _key(job: Job, given: Input) -> str:
 
 def _problem(error: Exception, step: str = "", limit: int | None = None) -> Problem:
     """Put an exception into one line."""
-    text = " ".join(str(error).split()) or type(error).__name__
+    text = readable(" ".join(str(error).split())) or type(error).__name__
     if isinstance(error, MemoryError) and not isinstance(error, BeltramiError):
         within = f" of {limit / 1e9:.2f} GB" if limit is not None else ""
         text = f"out of memory: more than the limit{within} was needed. {text}"
