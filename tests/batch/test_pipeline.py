@@ -164,7 +164,13 @@ def test_estimates_grow_with_the_mesh_and_name_the_step():
     assert large > 2 * 8 * 10**6 * 2000
 
 
-@pytest.mark.parametrize("text", ["", "4", "0GB", "-1GB", "4PB", "GB", "1e999", 0, -1, 1e30])
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("", "4", "0GB", "-1GB", "4PB", "GB", "1e999", "9" * 400 + "GB", "4i", "0.5B"),
+        *(0, -1, 1e30, 10**400, float("nan"), True, [4], 1j),
+    ],
+)
 def test_what_is_no_size_of_memory(text):
     if text == "4":
         assert parse_size(text) == 4

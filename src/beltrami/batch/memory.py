@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import math
 import re
+from numbers import Real
 from typing import Final
 
 from beltrami.batch.failures import PipelineError
 from beltrami.batch.verb import Estimate, Options, Size
+from beltrami.errors import shown
 
 BASE: Final = 350_000_000  # a worker with everything loaded
 READ: Final = 4.0  # bytes at the peak of reading, for each byte of the file
@@ -20,7 +22,7 @@ _SIZE = re.compile(r"(\d+(?:\.\d*)?)\s*([kmgt]?i?)b?", re.IGNORECASE)
 _UNITS = {"": 1, "k": 10**3, "m": 10**6, "g": 10**9, "t": 10**12}
 
 
-def parse_size(text: str | float) -> int:
+def parse_size(text: object) -> int:
     """Return bytes: ``4GB`` are 4·10⁹, ``4GiB`` 4·2³⁰; a number is a number of bytes.
 
     Raises
@@ -33,16 +35,17 @@ def parse_size(text: str | float) -> int:
     >>> parse_size("4GB"), parse_size("1.5 GiB"), parse_size("800M"), parse_size(1e9)
     (4000000000, 1610612736, 800000000, 1000000000)
     """
-    found = _SIZE.fullmatch(str(text).strip()) if isinstance(text, str) else None
+    size = 0.0
     if isinstance(text, str):
-        unit = found.group(2).lower() if found else ""
-        scale = 1024 ** "kmgt".index(unit[0]) * 1024 if unit.endswith("i") and unit != "i" else 0
-        size = int(float(found.group(1)) * (scale or _UNITS.get(unit, 0))) if found else 0
-    else:
-        size = int(text) if 0 < text < 2**62 else 0
-    if size <= 0:
-        raise PipelineError(0, f"memory is a size such as 4GB, not {text!r}")
-    return size
+        if found := _SIZE.fullmatch(text.strip()):
+            unit = found.group(2).lower()
+            binary = 1024 ** (1 + "kmgt".index(unit[0])) if len(unit) == 2 else 0
+            size = float(found.group(1)) * (binary or _UNITS.get(unit, 0))
+    elif isinstance(text, Real) and not isinstance(text, bool):
+        size = float(text) if text < 2**62 else 0.0
+    if not 1 <= size < 2**62:
+        raise PipelineError(0, f"memory is a size such as 4GB, not {shown(text)}")
+    return int(size)
 
 
 def of_mesh(size: Size) -> int:
