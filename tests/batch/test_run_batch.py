@@ -282,6 +282,54 @@ def test_results_elsewhere(meshes, tmp_path):
     assert len(store.read(["manifest.jsonl"])[0].splitlines()) == 5
 
 
+def test_results_elsewhere_of_meshes_that_all_fail(tmp_path):
+    place = f"memory://{tmp_path.name}/results"
+    assert run(f"memory://{tmp_path.name}/gone.ply", place).state.failed == 1
+    assert len(Store(place).read(["manifest.jsonl"])[0].splitlines()) == 2
+
+
+def test_no_row_without_its_record(meshes, tmp_path, monkeypatch):
+    monkeypatch.setattr("beltrami.batch.results.decoded", lambda *_: None)
+    with pytest.raises(StoreError, match="its record is not in the results"):
+        run(meshes, tmp_path / "out")
+    assert not (tmp_path / "out" / "results.parquet").exists()
+
+
+def test_what_goes_wrong_after_reading_is_not_put_down_to_it(meshes, tmp_path, table, monkeypatch):
+    def broken(record):
+        raise TypeError("a mistake")
+
+    monkeypatch.setattr("beltrami.batch.record.Record.encoded", broken)
+    run(meshes / "0.ply", tmp_path / "out")
+    row = table(tmp_path / "out")["0.ply"]
+    assert (row["outcome"], row["error_kind"], row["error_step"]) == ("failed", "TypeError", None)
+
+
+def test_a_store_that_cannot_be_read_stops_the_run(meshes, tmp_path):
+    out = tmp_path / "out"
+    run(meshes, out)
+    record = next((out / "work").rglob("*.json"))
+    record.unlink()
+    record.mkdir()
+    with pytest.raises(StoreError, match="results cannot be read: Is a directory"):
+        run(meshes, out)
+
+
+@pytest.mark.parametrize("place", ["nothing://x", "memory://results[1]"])
+def test_a_place_that_can_have_no_results(meshes, place):
+    with pytest.raises(StoreError):
+        run(meshes, place)
+
+
+def test_a_worker_that_cannot_reach_the_results_stops_the_run(meshes):
+    from beltrami.batch.pipeline import as_pipeline
+    from beltrami.batch.work import Job, process
+
+    job = Job("a", str(meshes / "0.ply"), as_pipeline("diagnose"), "nothing://x")
+    outcome = process(job)
+    assert (outcome.outcome, outcome.error.kind) == ("stopped", "StoreError")
+
+
 def test_results_among_the_sources_are_no_sources(meshes):
     out = meshes / "out"
     run(meshes, out, "write")

@@ -64,7 +64,12 @@ def test_nothing_there_is_an_error_before_the_work(folder, monkeypatch, wanted):
     assert caught.value.filename == wanted
 
 
-@pytest.mark.parametrize("wanted", [[], [3], [None]])
+@pytest.mark.parametrize("wanted", [[], [3], [None], 3, b"a.ply"])
 def test_what_is_no_source(wanted):
     with pytest.raises(BeltramiError):
         find_sources(wanted)
+
+
+def test_a_url_of_nothing_known():
+    with pytest.raises(BeltramiError, match="cannot be searched: Protocol not known: nothing"):
+        find_sources("nothing://x/*.ply")

@@ -33,6 +33,15 @@ def test_a_file_has_the_name_of_its_content(store):
     assert store.size("files/none") is None
 
 
+def test_trouble_elsewhere_is_not_taken_for_a_file_that_is_not_there(tmp_path, monkeypatch):
+    store = Store(f"memory://{tmp_path.name}/out")
+    failing = {f"/{tmp_path.name}/out/files/x": TimeoutError("no answer")}
+    monkeypatch.setattr(store._files, "cat", lambda *_, **__: failing)
+    assert store.read([]) == []
+    with pytest.raises(StoreError, match="results cannot be read: TimeoutError: no answer"):
+        store.read(["files/x"])
+
+
 def test_a_record_is_replaced_as_a_whole(store):
     name = work_name("ab" * 32)
     store.replace(name, lambda path: path.write_bytes(b"one"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
@@ -10,6 +11,7 @@ from pathlib import Path
 from typing import IO, Any, Final
 
 from beltrami._optional import require
+from beltrami.batch.failures import StoreError
 from beltrami.batch.pipeline import FORMAT, Pipeline
 from beltrami.batch.record import Record, decoded
 from beltrami.batch.store import Store, work_name
@@ -17,6 +19,7 @@ from beltrami.batch.work import Outcome, versions
 
 TABLE: Final = "results.parquet"
 MANIFEST: Final = "manifest.jsonl"
+_LOST: Final = "its record is not in the results: do all workers write to one place?"
 _ROWS: Final = 1000  # at a time: so a million meshes need little memory
 _OWN: Final = {
     "source": "text",
@@ -38,6 +41,11 @@ def write_results(
 
     Each is replaced as a whole. A row has the facts of all steps, null where there is none, and
     ``<step>.file``, the name of the file that the step made.
+
+    Raises
+    ------
+    StoreError
+        If they cannot be written, or a record that was written cannot be found.
     """
     arrow = require("pyarrow", "batch", "the table of a batch")
     parquet = require("pyarrow.parquet", "batch", "the table of a batch")
@@ -92,6 +100,9 @@ def _chunks(
         keys = [outcome.key for outcome in chunk]
         contents = iter(store.read([work_name(key) for key in keys if key]))
         records = [decoded(next(contents), key, pipeline) if key else None for key in keys]
+        for outcome, record in zip(chunk, records, strict=True):
+            if outcome.key and record is None:
+                raise StoreError(errno.ENOENT, _LOST, outcome.name)
         yield list(zip(chunk, records, strict=True))
 
 

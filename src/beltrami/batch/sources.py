@@ -16,7 +16,7 @@ from beltrami.io.registry import READERS
 
 MESHES = (*READERS, *extras.READERS, ".btm")
 Sources: TypeAlias = "str | os.PathLike[str] | Sequence[str | os.PathLike[str]]"
-_MAGIC = ("*", "?", "[")
+MAGIC = ("*", "?", "[")
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +51,12 @@ def find_sources(sources: Sources, out: str | None = None) -> Found:
     ------
     FileNotFoundError
         If a local file is not there, or a pattern or a folder has no mesh.
+    BeltramiError
+        If a URL is of a protocol that is not known or not installed.
     """
-    given = [sources] if isinstance(sources, str | os.PathLike) else list(sources)
+    given: list[object] = [sources]
+    if isinstance(sources, Iterable) and not isinstance(sources, str | os.PathLike):
+        given = list(sources)
     if not given:
         raise BeltramiError("a batch needs a mesh, a pattern or a folder")
     found: dict[str, Source] = {}
@@ -92,7 +96,7 @@ def _expanded(text: str) -> tuple[list[Source], bool]:
         return list(_locally(glob.iglob(below, recursive=True))), False
     if os.path.exists(text):
         return [Source(readable(text), os.path.abspath(text))], True
-    if any(sign in text for sign in _MAGIC):
+    if any(sign in text for sign in MAGIC):
         return list(_locally(glob.iglob(text, recursive=True))), False
     raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), text)
 
@@ -106,12 +110,17 @@ def _locally(names: Iterable[str]) -> Iterator[Source]:
 def _of_url(url: str) -> tuple[list[Source], bool]:
     """Return the files of a URL; those of http are taken as they are written."""
     head, chain, rest = url.partition("::")
-    if head.startswith(("http://", "https://")) or not any(sign in head for sign in _MAGIC):
+    if head.startswith(("http://", "https://")) or not any(sign in head for sign in MAGIC):
         return [Source(url, url)], True
-    files: Any
-    files, path = require("fsspec", "batch", "a batch").core.url_to_fs(url)
+    fsspec: Any = require("fsspec", "batch", "a batch")
     protocol = head.partition("://")[0]
-    names = (str(name).lstrip("/") for name in sorted(files.glob(path)))
+    try:
+        files, path = fsspec.core.url_to_fs(url)
+        names = [str(name).lstrip("/") for name in sorted(files.glob(path))]
+    except OSError:
+        raise
+    except Exception as cause:  # protocols that are not known, not installed or raise anything
+        raise BeltramiError(f"{url} cannot be searched: {cause}") from cause
     urls = [f"{protocol}://{name}{chain}{rest}" for name in names]
     return [Source(one, one) for one in urls], False
 

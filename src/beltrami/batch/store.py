@@ -19,6 +19,7 @@ from typing import IO, Any, Final
 
 from beltrami._optional import require
 from beltrami.batch.failures import StoreError
+from beltrami.batch.sources import MAGIC
 
 _AT_ONCE: Final = ("s3", "s3a", "gs", "gcs", "az", "abfs", "abfss", "adl", "oci")
 _FILE: Final = re.compile(r"files/([0-9a-f]{2})/\1[0-9a-f]{62}\.[a-z]{3}")
@@ -67,12 +68,15 @@ class Store:
     def __init__(self, place: str | os.PathLike[str]) -> None:
         fsspec = require("fsspec", "batch", "a batch")
         self.place = os.fspath(place)
-        self._files, path = fsspec.core.url_to_fs(self.place)
+        with self._told():  # of protocols that are not known, or not installed
+            self._files, path = fsspec.core.url_to_fs(self.place)
         protocol = self._files.protocol
         names = (protocol,) if isinstance(protocol, str) else tuple(protocol)
         self.is_local = "file" in names
         self._at_once = any(name in _AT_ONCE for name in names)
         self.root = os.path.realpath(path) if self.is_local else str(path).rstrip("/")
+        if not self.is_local and any(sign in self.root for sign in MAGIC):
+            raise StoreError(errno.EINVAL, "a place of results is no pattern", self.place)
 
     @contextmanager
     def claimed(self) -> Iterator[None]:
@@ -134,16 +138,26 @@ class Store:
         return Kept(name, digest, size)
 
     def read(self, names: Sequence[str]) -> list[bytes | None]:
-        """Return the contents of files; None for those that are not there."""
-        if self.is_local:
-            return [_content(self._path(name)) for name in names]
-        found: Any = self._files.cat([self._path(n) for n in names], on_error="return")
-        contents = (found.get(self._path(name)) for name in names)
+        """Return the contents of files; None for those that are not there.
+
+        Raises
+        ------
+        StoreError
+            If one is there and cannot be read.
+        """
+        with self._told("read"):
+            if self.is_local or not names:
+                return [_content(self._path(name)) for name in names]
+            found: Any = self._files.cat([self._path(n) for n in names], on_error="return")
+            contents = [found[self._path(name)] for name in names]
+            for content in contents:
+                if isinstance(content, Exception) and not isinstance(content, FileNotFoundError):
+                    raise content
         return [content if isinstance(content, bytes) else None for content in contents]
 
     def size(self, name: str) -> int | None:
         """Return the size of a file; None if it is not there."""
-        with self._told(), suppress(FileNotFoundError, NotADirectoryError):
+        with self._told("read"), suppress(FileNotFoundError, NotADirectoryError):
             if self.is_local:
                 return Path(self._path(name)).stat().st_size
             return int(self._files.info(self._path(name))["size"])
@@ -193,14 +207,14 @@ class Store:
             shutil.rmtree(folder, ignore_errors=True)
 
     @contextmanager
-    def _told(self) -> Iterator[None]:
+    def _told(self, done: str = "written") -> Iterator[None]:
         """Turn what a file system raises into a StoreError."""
         try:
             yield
         except StoreError:
             raise
         except Exception as error:  # remote file systems raise anything
-            raise _trouble(error, self.place) from error
+            raise _trouble(error, self.place, done) from error
 
 
 def lock_file(file: IO[bytes]) -> bool:
@@ -216,10 +230,10 @@ def lock_file(file: IO[bytes]) -> bool:
     return True
 
 
-def _trouble(error: Exception, place: str) -> StoreError:
+def _trouble(error: Exception, place: str, done: str = "written") -> StoreError:
     number = getattr(error, "errno", None) or errno.EIO
     reason = getattr(error, "strerror", None) or f"{type(error).__name__}: {error}"
-    return StoreError(number, f"results cannot be written: {reason}", place)
+    return StoreError(number, f"results cannot be {done}: {reason}", place)
 
 
 def _content(path: str) -> bytes | None:

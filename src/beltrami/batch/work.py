@@ -88,18 +88,16 @@ def process(job: Job) -> Outcome:
     circumstances cause (a source that cannot be read, too little memory) is told and not kept,
     so that the next run tries again.
     """
-    store = _store(job.store)
+    step = "reading"
     try:
+        store = _store(job.store)
         given = read_input(job.name, job.place, job.allowed)
+        step = ""  # from here on the steps put their names on their errors
         return _known(job, store, given) or _worked(job, store, given)
     except StoreError as error:
         return Outcome(job.name, STOPPED, error=_problem(error))
-    except MemoryError as error:
-        return Outcome(job.name, FAILED, error=_problem(error, limit=job.allowed))
-    except (BeltramiError, OSError) as error:
-        return Outcome(job.name, FAILED, error=_problem(error, "reading"))
     except Exception as error:  # noqa: BLE001 - remote file systems raise anything
-        return Outcome(job.name, FAILED, error=_problem(error, "reading"))
+        return Outcome(job.name, FAILED, error=_problem(error, step, job.allowed))
 
 
 def _known(job: Job, store: Store, given: Input) -> Outcome | None:
