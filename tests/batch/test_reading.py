@@ -3,14 +3,16 @@ import hashlib
 import io
 import threading
 import zipfile
+import zlib
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from beltrami.batch.failures import TooLargeError
 from beltrami.batch.memory import BASE
-from beltrami.batch.reading import mesh_of, read_input
+from beltrami.batch.reading import Input, _unpacked, mesh_of, read_input
 from beltrami.compression.compress import compress
 from beltrami.errors import FileFormatError, UnknownNameError
 from beltrami.io.registry import write_mesh
@@ -46,6 +48,37 @@ def test_gzip_of_several_members_with_padding(tmp_path):
     content = (tmp_path / "mesh.ply").read_bytes()
     path.write_bytes(gzip.compress(content[:99]) + gzip.compress(content[99:]) + b"\0" * 9)
     assert read(path).n_faces == MESH.n_faces
+
+
+class _Unpacker:
+    """Decompress, and count the bytes that are handed over."""
+
+    handed = 0
+
+    def __init__(self, **options):
+        self._real = zlib.decompressobj(**options)
+
+    def __getattr__(self, name):
+        return getattr(self._real, name)
+
+    def decompress(self, data, most):
+        _Unpacker.handed += len(data)
+        return self._real.decompress(data, most)
+
+
+def test_gzip_of_many_blocks_is_handed_over_about_once(tmp_path, monkeypatch):
+    monkeypatch.setattr("beltrami.batch.reading._BLOCK", 1000)
+    bits = np.random.default_rng(1).integers(0, 4, 50_000, np.uint8).tobytes()
+    packed = b"".join(
+        gzip.compress(bits[i : i + 7000]) + b"\0" * 2500 for i in range(0, 50_000, 7000)
+    )
+    given = Input("a.ply.gz", ".ply", True, "", len(packed), np.frombuffer(packed, np.uint8))
+    fake = SimpleNamespace(decompressobj=_Unpacker, error=zlib.error)
+    monkeypatch.setattr("beltrami.batch.reading.zlib", fake)
+    assert _unpacked(given.content, given, None).tobytes() == bits
+    assert len(packed) / 2 < _Unpacker.handed < 5 * len(packed)
+    with pytest.raises(FileFormatError, match="whole gzip file"):
+        _unpacked(given.content[:-2501], given, None)
 
 
 @pytest.mark.parametrize("cut", [1, 9, 40])

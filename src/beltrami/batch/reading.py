@@ -133,18 +133,21 @@ def _require_room(size: int, suffix: str, allowed: int | None) -> None:
 
 def _unpacked(packed: NDArray[np.uint8], given: Input, allowed: int | None) -> NDArray[np.uint8]:
     """Decompress, and stop where the memory that is allowed would not do."""
-    result = bytearray()
-    rest = packed.tobytes()
+    result, unpacker = bytearray(), zlib.decompressobj(wbits=31)
     try:
-        while rest:
-            unpacker = zlib.decompressobj(wbits=31)
-            while rest and not unpacker.eof:
+        for start in range(0, len(packed), _BLOCK):
+            rest = packed[start : start + _BLOCK].tobytes()
+            while rest:
+                if unpacker.eof:  # zeros to fill up, or another member
+                    rest = rest.lstrip(b"\0")
+                    if not rest:
+                        break
+                    unpacker = zlib.decompressobj(wbits=31)
                 result += unpacker.decompress(rest, _BLOCK)
                 _require_room(len(result), given.suffix, allowed)
-                rest = unpacker.unconsumed_tail
-            if not unpacker.eof:
-                raise EOFError("the end is missing")
-            rest = unpacker.unused_data.lstrip(b"\0")
+                rest = unpacker.unused_data if unpacker.eof else unpacker.unconsumed_tail
+        if not unpacker.eof:
+            raise EOFError("the end is missing")
     except (EOFError, zlib.error) as cause:
         raise FileFormatError(given.name, f"expected a whole gzip file ({cause})") from cause
     return np.frombuffer(result, np.uint8)
