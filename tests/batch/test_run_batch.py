@@ -4,11 +4,13 @@ import os
 import resource
 import sys
 import threading
+import weakref
 
 import numpy as np
 import pytest
 
 import beltrami as bt
+from beltrami.batch import results
 from beltrami.batch.failures import PipelineError, StoreError, StrictError
 from beltrami.batch.memory import BASE
 from beltrami.batch.run_batch import run_batch
@@ -378,6 +380,25 @@ def test_the_table_does_not_depend_on_the_size_of_its_pieces(meshes, tmp_path, t
     monkeypatch.setattr("beltrami.batch.results._ROWS", 2)
     run(meshes, tmp_path / "out")
     assert table(tmp_path / "out") == at_once
+
+
+def test_the_lines_of_the_manifest_are_not_all_in_memory(meshes, tmp_path, manifest, monkeypatch):
+    class Text(str):
+        __slots__ = ("__weakref__",)
+
+    made, alive = [], []
+
+    def line(outcome, record, real=results._line):
+        alive.append(sum(one() is not None for one in made))
+        text = Text(real(outcome, record))
+        made.append(weakref.ref(text))
+        return text
+
+    monkeypatch.setattr(results, "_ROWS", 1)
+    monkeypatch.setattr(results, "_line", line)
+    run(meshes, tmp_path / "out")
+    assert len(made) == len(manifest(tmp_path / "out")[1]) == 4
+    assert max(alive) <= 1
 
 
 def test_a_table_of_failures_alone_has_every_column(meshes, tmp_path):

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import errno
 import json
+import shutil
 from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import IO, Any, Final
@@ -50,28 +52,39 @@ def write_results(
     arrow = require("pyarrow", "batch", "the table of a batch")
     parquet = require("pyarrow.parquet", "batch", "the table of a batch")
     schema = arrow.schema([(name, _type(arrow, kind)) for name, kind in columns(pipeline).items()])
-    lines: list[str] = []
 
-    def write_table(path: Path) -> None:
+    def write_table(lines: IO[str], path: Path) -> None:
         with parquet.ParquetWriter(path, schema) as writer:
             for chunk in _chunks(store, pipeline, outcomes):
                 rows = [_row(outcome, record) for outcome, record in chunk]
                 writer.write_table(arrow.Table.from_pylist(rows, schema))
-                lines.extend(_line(outcome, record) for outcome, record in chunk)
+                lines.writelines(_line(outcome, record) + "\n" for outcome, record in chunk)
 
-    table = store.replace(TABLE, write_table)
-    head = {
+    def write_manifest(path: Path) -> None:
+        with _text(path.with_name("lines"), "w+") as lines, _text(path, "w") as file:
+            table = store.replace(TABLE, partial(write_table, lines))
+            head = _head(pipeline, outcomes, total) | {
+                "versions": versions() | {"pyarrow": arrow.__version__},
+                "table": {"name": table.name, "sha256": table.sha256},
+            }
+            file.write(json.dumps(head) + "\n")
+            lines.seek(0)
+            shutil.copyfileobj(lines, file)
+
+    store.replace(MANIFEST, write_manifest)
+
+
+def _head(pipeline: Pipeline, outcomes: Sequence[Outcome], total: int) -> dict[str, Any]:
+    """Return what the manifest says of the run as a whole."""
+    return {
         "format": FORMAT,
         "pipeline": pipeline.plain,
-        "versions": versions() | {"pyarrow": arrow.__version__},
         "written": datetime.now(UTC).isoformat(timespec="seconds"),
         "meshes": total,
         "done": sum(outcome.outcome == "done" for outcome in outcomes),
         "failed": sum(outcome.outcome == "failed" for outcome in outcomes),
         "complete": len(outcomes) == total,
-        "table": {"name": table.name, "sha256": table.sha256},
     }
-    store.replace(MANIFEST, lambda path: _write_lines(path, [json.dumps(head), *lines]))
 
 
 def columns(pipeline: Pipeline) -> dict[str, str]:
@@ -144,8 +157,5 @@ def _line(outcome: Outcome, record: Record | None) -> str:
     return json.dumps(line, ensure_ascii=False)
 
 
-def _write_lines(path: Path, lines: Sequence[str]) -> None:
-    file: IO[str]
-    with path.open("w", encoding="utf-8", newline="\n") as file:
-        for line in lines:
-            file.write(line + "\n")
+def _text(path: Path, mode: str) -> IO[str]:
+    return path.open(mode, encoding="utf-8", newline="\n")

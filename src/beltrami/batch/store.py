@@ -115,11 +115,7 @@ class Store:
         """
         with self._scratch() as folder:
             path = Path(folder, f"whole{suffix}")
-            try:
-                write(path)
-                digest, size = _digest(path)
-            except OSError as error:
-                raise _trouble(error, self.place) from error
+            digest, size = self._made(path, write)
             kept = Kept(f"files/{digest[:2]}/{digest}{suffix}", digest, size)
             if self.size(kept.name) != size:
                 self._put(path, kept.name)
@@ -129,11 +125,7 @@ class Store:
         """Let ``write`` make a file that replaces the one of this name, as a whole."""
         with self._scratch() as folder:
             path = Path(folder, "whole")
-            try:
-                write(path)
-                digest, size = _digest(path)
-            except OSError as error:
-                raise _trouble(error, self.place) from error
+            digest, size = self._made(path, write)
             self._put(path, name)
         return Kept(name, digest, size)
 
@@ -165,6 +157,16 @@ class Store:
 
     def _path(self, name: str) -> str:
         return os.path.join(self.root, *name.split("/")) if self.is_local else f"{self.root}/{name}"
+
+    def _made(self, path: Path, write: Callable[[Path], object]) -> tuple[str, int]:
+        """Let ``write`` make a file; return its digest and its size."""
+        try:
+            write(path)
+            return _digest(path)
+        except StoreError:
+            raise
+        except OSError as error:
+            raise _trouble(error, self.place) from error
 
     def _put(self, path: Path, name: str) -> None:
         """Move a whole file to its name; no reader ever sees a part of it."""
