@@ -94,3 +94,17 @@ def test_it_needs_a_pair():
         partition_rows(bt.shapes.icosphere(0), 2)
     block = partition_rows(bt.laplacian(bt.shapes.icosphere(0)), 2)[0]
     assert not block.stiffness.data.flags.writeable
+
+
+def test_what_cannot_be_put_together():
+    blocks = partition_rows(bt.laplacian(bt.shapes.icosphere(0)), 3)
+    ones = [np.ones(len(block.owned)) for block in blocks]
+    assert gather_rows(list(blocks), ones).tolist() == [1.0] * 12
+    columns = [np.ones((len(block.owned), 2)) for block in blocks]
+    assert gather_rows(blocks, columns).shape == (12, 2)
+    for some in ((), blocks[:2]):
+        with pytest.raises(BeltramiError, match="from all blocks"):
+            gather_rows(some, ones[: len(some)])
+    for wrong in (ones[:2], [*ones, ones[0]], [*ones[:2], columns[2]], [*ones[:2], [1.0]]):
+        with pytest.raises(DimensionError):
+            gather_rows(blocks, wrong)

@@ -34,7 +34,7 @@ def learning_operators(
     Parameters
     ----------
     mesh
-        A sound mesh in R² or R³, of more than k vertices.
+        A sound mesh in R² or R³.
     k
         How many eigenpairs, at most n.
     weights, mass

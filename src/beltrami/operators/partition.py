@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,7 +19,7 @@ from beltrami._arrays import (
     rectangular,
     whole,
 )
-from beltrami.errors import MeshError
+from beltrami.errors import DimensionError, MeshError
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.domain import require_laplacian
 from beltrami.operators.pair import Laplacian
@@ -171,27 +172,45 @@ def _block(pair: Laplacian, order: Integers, number: Integers, start: int, end: 
     rows = [csr_array(matrix[owned]) for matrix in (pair.stiffness, pair.mass)]
     touched = np.unique(np.concatenate([number[matrix.indices] for matrix in rows]))
     ghosts = touched[(touched < start) | (touched >= end)]
-    columns = np.concatenate([np.arange(start, end), ghosts])
-    place = np.full(pair.n, -1)
-    place[columns] = np.arange(len(columns))
-    local = [
-        csr_array((m.data, place[number[m.indices]], m.indptr), (len(owned), len(columns)))
-        for m in rows
-    ]
+
+    def place(numbers: Integers) -> Integers:
+        within = (numbers >= start) & (numbers < end)
+        beyond = len(owned) + np.searchsorted(ghosts, numbers)
+        return np.where(within, numbers - start, beyond)
+
+    shape = (len(owned), len(owned) + len(ghosts))
+    local = [csr_array((m.data, place(number[m.indices]), m.indptr), shape) for m in rows]
     return RowBlock(start, pair.n, owned.copy(), ghosts, order[ghosts], local[0], local[1])
 
 
-def gather_rows(blocks: tuple[RowBlock, ...], values: list[Floats]) -> Floats:
+def gather_rows(blocks: Sequence[RowBlock], values: Sequence[ArrayLike]) -> Floats:
     """Return a function on all vertices from the values that the processes own.
 
     Parameters
     ----------
     blocks
-        As ``partition_rows`` returns them.
+        As ``partition_rows`` returns them: all of them.
     values
         For each block (r,) or (r, c), in the order of its rows.
+
+    Raises
+    ------
+    MeshError
+        If a block is missing.
+    DimensionError, NonFiniteError
+        If there are not values for each block and each of its rows, or some are not finite.
     """
-    result = np.empty((blocks[0].n, *np.shape(values[0])[1:]))
-    for block, part in zip(blocks, values, strict=True):
-        result[block.owned] = as_function(part, len(block.owned), "the values of a block")
+    if not len(blocks) or sum(len(block.owned) for block in blocks) != blocks[0].n:
+        raise MeshError("a function is put together from all blocks, and some are missing")
+    if len(values) != len(blocks):
+        raise DimensionError(f"{len(blocks)} blocks need as many arrays, not {len(values)}")
+    parts = [
+        as_function(part, len(block.owned), "the values of a block")
+        for block, part in zip(blocks, values, strict=True)
+    ]
+    if any(part.shape[1:] != parts[0].shape[1:] for part in parts):
+        raise DimensionError("the values of the blocks have different numbers of columns")
+    result = np.empty((blocks[0].n, *parts[0].shape[1:]))
+    for block, part in zip(blocks, parts, strict=True):
+        result[block.owned] = part
     return result
