@@ -72,6 +72,14 @@ def test_numbers_that_json_does_not_know_are_null():
         changed(input={"sha256": 3, "bytes": 7}),
         changed(input={}),
         changed(seconds={"reading": "long"}),
+        changed(seconds={"reading": 10**400}),
+        changed(seconds={"reading": None}),
+        changed(seconds={"\ud800": 1}),
+        changed(finished=3),
+        changed(finished="\ud800"),
+        changed(versions=3),
+        changed(row={"integrate.area": 10**400}),
+        changed(error={"kind": "a", "message": "\ud800", "step": ""}, outcome="failed"),
     ],
 )
 def test_a_record_that_is_not_whole_or_not_valid_is_none(content):

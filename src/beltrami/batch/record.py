@@ -45,7 +45,7 @@ class Record:
     files
         By the label of the step that made it.
     seconds
-        Of the processor, by the label of the step; and for reading and writing.
+        Of the processor, by the label of the step; and for reading.
     error
         Why it failed; None if it did not.
     finished
@@ -83,6 +83,7 @@ def decoded(content: bytes | None, key: str, pipeline: Pipeline) -> Record | Non
         return None
     try:
         plain = json.loads(content)
+        json.dumps(plain, ensure_ascii=False).encode()  # raises where a text is no Unicode
         if plain.pop("format") != FORMAT or plain["key"] != key:
             return None
         outcome = plain.pop("outcome")
@@ -114,7 +115,7 @@ def fits(kind: str, value: Any) -> bool:
     allowed = int if kind == "whole" else (int, float)
     if isinstance(value, bool) or not isinstance(value, allowed):
         return False
-    return kind == "number" or abs(value) < 2**63
+    return isinstance(value, float) or abs(value) < 2**63
 
 
 def _is_valid(record: Record, pipeline: Pipeline) -> bool:
@@ -132,8 +133,12 @@ def _is_valid(record: Record, pipeline: Pipeline) -> bool:
         isinstance(text, str)
         for text in (record.error.kind, record.error.message, record.error.step)
     )
-    times = all(fits("number", value) for value in record.seconds.values())
-    known = isinstance(record.input["sha256"], str) and isinstance(record.input["bytes"], int)
+    times = None not in record.seconds.values() and all(
+        fits("number", value) for value in record.seconds.values()
+    )
+    kinds: tuple[tuple[object, type], ...] = ((record.finished, str), (record.versions, dict))
+    kinds += ((record.input["sha256"], str), (record.input["bytes"], int))
+    known = all(isinstance(value, kind) for value, kind in kinds)
     return whole and named and texts and times and known
 
 
