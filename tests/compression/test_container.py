@@ -3,10 +3,12 @@
 import re
 import zlib
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from beltrami.compression import container
 from beltrami.compression.container import (
     CONNECTIVITY,
     DATA,
@@ -68,6 +70,22 @@ def test_unknown_double_and_unsorted_sections_are_refused():
         with pytest.raises(FileFormatError, match="wrong order"):
             unpack(pack(0, [Section(k, b"") for k in kinds]), "a.btm")
     assert len(unpack(pack(0, [Section(DATA, b"")] * 3), "a.btm")[1]) == 3
+
+
+def test_checksums_take_time_in_proportion_to_the_file(monkeypatch):
+    """Sixty thousand sections of a file must not be sixty thousand sums over it."""
+    summed = []
+
+    def counting(data, *before):
+        summed.append(len(data))
+        return zlib.crc32(data, *before)
+
+    monkeypatch.setattr(container, "zlib", SimpleNamespace(crc32=counting))
+    data = pack(0, [Section(DATA, bytes(40))] * 500)
+    assert len(data) <= sum(summed) <= 2 * len(data)
+    summed.clear()
+    assert len(unpack(data, "x")[1]) == 500
+    assert len(data) <= sum(summed) <= 2 * len(data)
 
 
 def test_the_document_says_what_the_code_does():
