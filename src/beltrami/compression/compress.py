@@ -116,7 +116,8 @@ def compress(
     NonFiniteError
         If a position is not finite.
     MeshError
-        If the bound cannot be kept: finer than 2^-30 of the extent, or than the coordinates.
+        If the bound cannot be kept: finer than 2^-30 of the extent, or than the coordinates; or
+        is one of what the mesh does not have.
     UnknownNameError
         If the mode or the effort does not exist.
 
@@ -144,6 +145,8 @@ def compress(
     check_name("effort", effort, EFFORTS)
     _check(mesh, max_error, bits)
     check_errors(mesh.vertex_data, function_errors or {})
+    if uv_error is not None and mesh.corner_uv is None:
+        raise MeshError("uv_error belongs to texture coordinates, and the mesh has none")
     terms = None if terms is None else whole("the number of terms", terms, 1, mesh.n_vertices)
     if terms is not None and mode != "spectral":
         raise MeshError(f"the mode {mode!r} has no terms: they belong to the mode 'spectral'")
@@ -190,7 +193,7 @@ def _check(mesh: Mesh, max_error: float | None, bits: int | None) -> None:
         raise DimensionError(f"positions of more than {MOST_COORDINATES} coordinates")
     if max_error is not None and bits is not None:
         raise MeshError("max_error and bits say the same thing: give one of them")
-    if bits is not None and not 1 <= bits <= MOST_BITS:
+    if bits is not None and not 1 <= whole("bits", bits, least=0) <= MOST_BITS:
         raise MeshError(f"bits must be 1 to {MOST_BITS}, not {bits}")
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import Integers
+from beltrami._arrays import Integers, whole
 from beltrami._progress import Progress
 from beltrami.compression.attributes_reading import decode_attributes
 from beltrami.compression.connectivity import decode_connectivity
@@ -65,6 +65,8 @@ def decompress(
     ------
     FileFormatError
         If these are not the bytes of such a file; it says at which byte.
+    MeshError
+        If ``max_vertices`` is no whole number.
 
     Notes
     -----
@@ -77,6 +79,7 @@ def decompress(
     >>> decompress(compress(icosphere(1), bits=10))
     <Mesh: 42 vertices in R³, 80 faces>
     """
+    max_vertices = whole("max_vertices", max_vertices, least=0)
     data, path = bytes_of(source)
     features, sections = unpack(data, path, partial)
     cut = sections.pop() if sections and sections[-1].is_cut else None
