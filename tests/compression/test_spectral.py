@@ -155,6 +155,14 @@ def test_a_coarse_shape_takes_the_fewest_bytes_and_auto_finds_it():
     assert describe(fine).mode == "grid"
 
 
+@pytest.mark.parametrize("part", [0.05, 0.012, 0.007])
+def test_auto_takes_the_fewest_bytes_of_all_modes(part):
+    error = part * np.ptp(BLOB.vertices)
+    options = {"max_error": error, "effort": "fast", "verify": False}
+    sizes = [len(bt.compress(BLOB, mode=m, **options)) for m in ("grid", "smooth", "spectral")]
+    assert len(bt.compress(BLOB, **options)) == min(sizes)
+
+
 def test_terms_belong_to_the_spectrum():
     with pytest.raises(MeshError, match="the mode 'auto' has no terms"):
         bt.compress(BLOB, terms=5)

@@ -87,8 +87,9 @@ def compress(
         coefficients in the eigenvectors of Laplacians that the faces alone give, rounded to
         multiples of the step of the grid, then smoothed in the same way; few bytes for a coarse
         shape, and any beginning of the file is a coarser one (``decompress(..., partial=True)``).
-        ``"auto"``: with ``max_error`` the one that takes the fewest bytes, the
-        others tried where a coarse shape lets them win; else ``"grid"``.
+        ``"auto"``: with ``max_error`` the one that takes the fewest bytes, the others tried only
+        where the shape is coarse enough for them to win: below about a byte for each vertex; else
+        ``"grid"``.
     terms
         With ``"spectral"``, no more than that many of the lowest frequencies of each block of at
         most 500 vertices (with the effort ``"fast"`` 250), the M of definition 21.
@@ -123,9 +124,12 @@ def compress(
 
     Notes
     -----
-    In O(n + m): about 60 microseconds per vertex with the best effort, 25 with the fast one, and
-    as much again to verify; ``"spectral"`` about 120 and 40; ``"auto"`` up to five times as much,
-    where the shape becomes coarse. The first call in a new installation compiles.
+    In O(n + m): on the grid about 60 microseconds per vertex with the best effort, 25 with the
+    fast one, and as much again to verify (``python -m benchmarks.compression`` measures them).
+    With ``max_error`` ``"smooth"`` tries two or three steps, each for as long as the grid takes;
+    ``"spectral"`` makes a basis of each block, and with ``max_error`` codes four steps in it, which
+    takes several times as long; ``"auto"`` takes all these together where the shape becomes
+    coarse. The first call in a new installation compiles.
 
     References
     ----------
