@@ -131,6 +131,14 @@ def test_deflated_bytes_cannot_fill_the_memory():
         decode_array(Reader(head + zlib.compress(bytes(10**5), 9), "x"), 10)
 
 
+def test_truth_values_are_0_or_1():
+    head = to_varints([1]) + b"f" + to_varints([3]) + b"|b1" + to_varints([0])
+    _, values = decode_array(Reader(head + zlib.compress(b"\1\0"), "x"), 2)
+    assert values.tolist() == [True, False]
+    with pytest.raises(FileFormatError, match="neither 0 nor 1"):
+        decode_array(Reader(head + zlib.compress(b"\1\2"), "x"), 2)
+
+
 @pytest.mark.parametrize("n", [0, 1, 2, 7, 1000])
 def test_orders_come_back_in_log2_of_n_factorial_bits(n):
     order = np.random.default_rng(n).permutation(n)

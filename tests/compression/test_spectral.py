@@ -5,7 +5,9 @@ import pytest
 from hypothesis import given, settings
 
 import beltrami as bt
+from beltrami.compression.container import SPECTRUM, unpack
 from beltrami.compression.contents import describe
+from beltrami.compression.spectral_head import read_spectral_head
 from beltrami.errors import FileFormatError, MeshError
 from beltrami.mesh.mesh import Mesh
 from strategies import any_meshes
@@ -116,6 +118,18 @@ def test_every_beginning_is_a_coarser_shape(keep_order):
     np.testing.assert_array_equal(complete.vertices, whole.vertices)
     assert list(complete.vertex_data) == ["f"]
     assert not back.vertex_data
+
+
+def test_a_beginning_without_the_mean_of_each_block_is_no_shape():
+    data = bt.compress(BLOB, mode="spectral", bits=12, effort="fast")
+    section = next(s for s in unpack(data, "x")[1] if s.kind == SPECTRUM)
+    reader = section.reader("x")
+    read_spectral_head(reader, BLOB.n_vertices)
+    reader.varint()
+    first = section.start + reader.position
+    with pytest.raises(FileFormatError, match="before the first coefficient of each block"):
+        bt.decompress(data[: first + 6], partial=True)
+    assert bt.decompress(data[: first + 60], partial=True).n_vertices == BLOB.n_vertices
 
 
 def test_only_this_mode_can_be_read_in_part():
