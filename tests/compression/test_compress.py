@@ -177,6 +177,8 @@ def test_writing_is_whole_or_not_at_all(tmp_path):
         ({"effort": "most"}, UnknownNameError, "choose one of 'best', 'fast'"),
         ({"bits": 0}, MeshError, "bits must be 1 to 30, not 0"),
         ({"bits": 31}, MeshError, "bits must be 1 to 30, not 31"),
+        ({"bits": 7.5}, MeshError, "bits is 7.5 where a whole number is needed"),
+        ({"uv_error": 0.1}, MeshError, "texture coordinates, and the mesh has none"),
         ({"bits": 9, "max_error": 1.0}, MeshError, "give one of them"),
         ({"max_error": 0.0}, MeshError, "must be positive"),
         ({"max_error": np.nan}, MeshError, "must be positive"),
@@ -222,6 +224,8 @@ def test_what_is_not_a_compressed_mesh_is_refused(tmp_path):
     data = bt.compress(bt.shapes.icosphere(1))
     with pytest.raises(FileFormatError, match="max_vertices can be raised"):
         bt.decompress(data, max_vertices=41)
+    with pytest.raises(MeshError, match="max_vertices is nan where a whole number is needed"):
+        bt.decompress(data, max_vertices=np.nan)
 
 
 def test_progress_is_told():

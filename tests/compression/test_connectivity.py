@@ -7,7 +7,9 @@ from hypothesis import strategies as st
 
 from beltrami.compression.connectivity import decode_connectivity, encode_connectivity
 from beltrami.compression.cutting import cut_into_pieces
-from beltrami.compression.varint import Reader
+from beltrami.compression.leftovers import code_leftovers, leftovers_to_fill
+from beltrami.compression.range_coder import POSITION, new_decoder, ran_dry
+from beltrami.compression.varint import Reader, to_varints
 from beltrami.errors import FileFormatError
 from beltrami.mesh import shapes
 from beltrami.mesh.topology import Topology
@@ -138,6 +140,25 @@ def test_more_than_is_allowed_is_refused():
     data, _ = encode_connectivity(shapes.icosphere(2).topology)
     with pytest.raises(FileFormatError, match="at most 100"):
         decode_connectivity(Reader(data, "x"), 100)
+
+
+@pytest.mark.parametrize("counts", [(40_000, 0, 0, 0), (0, 40_000, 0, 0), (0, 0, 0, 40_000)])
+def test_reading_ends_where_the_bytes_do(counts):
+    """A few bytes that declare much are refused, before all that they declare is made."""
+    buffer = np.arange(7, 27, dtype=np.uint8)
+    left, state = leftovers_to_fill(*counts), new_decoder(buffer)
+    code_leftovers(left, 10**6, np.full((3, 128), 1 << 15, np.int64), state, buffer)
+    assert ran_dry(state, buffer)
+    assert state[POSITION] < 2 * len(buffer)
+
+
+def test_improper_faces_that_are_not_there_are_refused():
+    data, _ = encode_connectivity(Topology([[0, 0, 1], [4, 4, 4]], 900))
+    varints = to_varints([900, 0, 0, 0, 0, 0, 2])
+    assert data.startswith(varints)
+    more = to_varints([900, 0, 0, 0, 0, 0, 9])
+    with pytest.raises(FileFormatError, match="less than it declares"):
+        decode_connectivity(Reader(more + data[len(varints) :], "x"), 1000)
 
 
 @given(st.binary(max_size=40), st.integers(0, 10_000))

@@ -3,10 +3,12 @@
 import re
 import zlib
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from beltrami.compression import container
 from beltrami.compression.container import (
     CONNECTIVITY,
     DATA,
@@ -70,6 +72,22 @@ def test_unknown_double_and_unsorted_sections_are_refused():
     assert len(unpack(pack(0, [Section(DATA, b"")] * 3), "a.btm")[1]) == 3
 
 
+def test_checksums_take_time_in_proportion_to_the_file(monkeypatch):
+    """Sixty thousand sections of a file must not be sixty thousand sums over it."""
+    summed = []
+
+    def counting(data, *before):
+        summed.append(len(data))
+        return zlib.crc32(data, *before)
+
+    monkeypatch.setattr(container, "zlib", SimpleNamespace(crc32=counting))
+    data = pack(0, [Section(DATA, bytes(40))] * 500)
+    assert len(data) <= sum(summed) <= 2 * len(data)
+    summed.clear()
+    assert len(unpack(data, "x")[1]) == 500
+    assert len(data) <= sum(summed) <= 2 * len(data)
+
+
 def test_the_document_says_what_the_code_does():
     text = FORMAT.read_text(encoding="utf-8")
     assert " ".join(f"{byte:02x}" for byte in MAGIC) in text
@@ -111,6 +129,14 @@ def test_deflated_bytes_cannot_fill_the_memory():
     head = to_varints([1]) + b"f" + to_varints([3]) + b"|u1" + to_varints([0])
     with pytest.raises(FileFormatError, match="expected 10 bytes, found 11"):
         decode_array(Reader(head + zlib.compress(bytes(10**5), 9), "x"), 10)
+
+
+def test_truth_values_are_0_or_1():
+    head = to_varints([1]) + b"f" + to_varints([3]) + b"|b1" + to_varints([0])
+    _, values = decode_array(Reader(head + zlib.compress(b"\1\0"), "x"), 2)
+    assert values.tolist() == [True, False]
+    with pytest.raises(FileFormatError, match="neither 0 nor 1"):
+        decode_array(Reader(head + zlib.compress(b"\1\2"), "x"), 2)
 
 
 @pytest.mark.parametrize("n", [0, 1, 2, 7, 1000])

@@ -5,7 +5,9 @@ import pytest
 from hypothesis import given, settings
 
 import beltrami as bt
+from beltrami.compression.container import SPECTRUM, unpack
 from beltrami.compression.contents import describe
+from beltrami.compression.spectral_head import read_spectral_head
 from beltrami.errors import FileFormatError, MeshError
 from beltrami.mesh.mesh import Mesh
 from strategies import any_meshes
@@ -118,6 +120,18 @@ def test_every_beginning_is_a_coarser_shape(keep_order):
     assert not back.vertex_data
 
 
+def test_a_beginning_without_the_mean_of_each_block_is_no_shape():
+    data = bt.compress(BLOB, mode="spectral", bits=12, effort="fast")
+    section = next(s for s in unpack(data, "x")[1] if s.kind == SPECTRUM)
+    reader = section.reader("x")
+    read_spectral_head(reader, BLOB.n_vertices)
+    reader.varint()
+    first = section.start + reader.position
+    with pytest.raises(FileFormatError, match="before the first coefficient of each block"):
+        bt.decompress(data[: first + 6], partial=True)
+    assert bt.decompress(data[: first + 60], partial=True).n_vertices == BLOB.n_vertices
+
+
 def test_only_this_mode_can_be_read_in_part():
     data = bt.compress(BLOB, bits=8)
     with pytest.raises(FileFormatError, match="'positions on a grid', or not the whole of it"):
@@ -153,6 +167,14 @@ def test_a_coarse_shape_takes_the_fewest_bytes_and_auto_finds_it():
     assert (len(data), describe(data).mode) == (sizes["spectral"], "spectral")
     fine = bt.compress(BLOB, max_error=error / 300, effort="fast")
     assert describe(fine).mode == "grid"
+
+
+@pytest.mark.parametrize("part", [0.05, 0.012, 0.007])
+def test_auto_takes_the_fewest_bytes_of_all_modes(part):
+    error = part * np.ptp(BLOB.vertices)
+    options = {"max_error": error, "effort": "fast", "verify": False}
+    sizes = [len(bt.compress(BLOB, mode=m, **options)) for m in ("grid", "smooth", "spectral")]
+    assert len(bt.compress(BLOB, **options)) == min(sizes)
 
 
 def test_terms_belong_to_the_spectrum():

@@ -15,8 +15,8 @@ from beltrami.compression.numbers import surroundings
 from beltrami.compression.spectral import encode_spectrum
 
 MODES = ("auto", "grid", "smooth", "spectral")
-# Bytes for each vertex in the modes before: with more the others do not win.
-_OTHERS = (("smooth", 1.0), ("spectral", 0.3))
+# Bytes for each vertex in the modes before, above which the others were never seen to win.
+_OTHERS = (("smooth", 1.0), ("spectral", 0.6))
 _TRIES = 2  # of steps, until the error is near the bound
 _FACTORS = (0.6, 0.9, 1.3, 1.9)  # steps of coefficients to try, in bounds of the error
 

@@ -87,8 +87,9 @@ def compress(
         coefficients in the eigenvectors of Laplacians that the faces alone give, rounded to
         multiples of the step of the grid, then smoothed in the same way; few bytes for a coarse
         shape, and any beginning of the file is a coarser one (``decompress(..., partial=True)``).
-        ``"auto"``: with ``max_error`` the one that takes the fewest bytes, the
-        others tried where a coarse shape lets them win; else ``"grid"``.
+        ``"auto"``: with ``max_error`` the one that takes the fewest bytes, the others tried only
+        where the shape is coarse enough for them to win: below about a byte for each vertex; else
+        ``"grid"``.
     terms
         With ``"spectral"``, no more than that many of the lowest frequencies of each block of at
         most 500 vertices (with the effort ``"fast"`` 250), the M of definition 21.
@@ -116,15 +117,19 @@ def compress(
     NonFiniteError
         If a position is not finite.
     MeshError
-        If the bound cannot be kept: finer than 2^-30 of the extent, or than the coordinates.
+        If the bound cannot be kept: finer than 2^-30 of the extent, or than the coordinates; or
+        is one of what the mesh does not have.
     UnknownNameError
         If the mode or the effort does not exist.
 
     Notes
     -----
-    In O(n + m): about 60 microseconds per vertex with the best effort, 25 with the fast one, and
-    as much again to verify; ``"spectral"`` about 120 and 40; ``"auto"`` up to five times as much,
-    where the shape becomes coarse. The first call in a new installation compiles.
+    In O(n + m): on the grid about 60 microseconds per vertex with the best effort, 25 with the
+    fast one, and as much again to verify (``python -m benchmarks.compression`` measures them).
+    With ``max_error`` ``"smooth"`` tries two or three steps, each for as long as the grid takes;
+    ``"spectral"`` makes a basis of each block, and with ``max_error`` codes four steps in it, which
+    takes several times as long; ``"auto"`` takes all these together where the shape becomes
+    coarse. The first call in a new installation compiles.
 
     References
     ----------
@@ -144,6 +149,8 @@ def compress(
     check_name("effort", effort, EFFORTS)
     _check(mesh, max_error, bits)
     check_errors(mesh.vertex_data, function_errors or {})
+    if uv_error is not None and mesh.corner_uv is None:
+        raise MeshError("uv_error belongs to texture coordinates, and the mesh has none")
     terms = None if terms is None else whole("the number of terms", terms, 1, mesh.n_vertices)
     if terms is not None and mode != "spectral":
         raise MeshError(f"the mode {mode!r} has no terms: they belong to the mode 'spectral'")
@@ -190,7 +197,7 @@ def _check(mesh: Mesh, max_error: float | None, bits: int | None) -> None:
         raise DimensionError(f"positions of more than {MOST_COORDINATES} coordinates")
     if max_error is not None and bits is not None:
         raise MeshError("max_error and bits say the same thing: give one of them")
-    if bits is not None and not 1 <= bits <= MOST_BITS:
+    if bits is not None and not 1 <= whole("bits", bits, least=0) <= MOST_BITS:
         raise MeshError(f"bits must be 1 to {MOST_BITS}, not {bits}")
 
 

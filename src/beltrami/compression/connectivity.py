@@ -33,6 +33,7 @@ from beltrami.compression.range_coder import (
     finished,
     new_decoder,
     new_encoder,
+    ran_dry,
     readable,
 )
 from beltrami.compression.varint import Reader, to_varints
@@ -161,6 +162,8 @@ def decode_connectivity(reader: Reader, max_vertices: int) -> tuple[Integers, in
         raise reader.fault(_PROBLEMS.get(status, "fewer vertices than it declares"))
     left = leftovers_to_fill(middles, merged, turned, improper)
     code_leftovers(left, final, _models(), state, buffer)
+    if ran_dry(state, buffer):
+        raise reader.fault(_PROBLEMS[ENDS_EARLY])
     return _assemble(surface.conquered, left, n, reader), final
 
 

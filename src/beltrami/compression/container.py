@@ -68,11 +68,14 @@ def pack(features: int, sections: list[Section]) -> bytes:
     >>> data[:7].hex(), len(data), unpack(data, "a.btm")[1][0].payload
     ('8942544d010001', 16, b'abc')
     """
-    data = MAGIC + bytes([VERSION, features]) + to_varints([len(sections)])
+    parts = [MAGIC + bytes([VERSION, features]) + to_varints([len(sections)])]
+    checksum = zlib.crc32(parts[0])
     for section in sections:
-        data += to_varints([section.kind, len(section.payload)]) + section.payload
-        data += zlib.crc32(data).to_bytes(4, "little")
-    return data
+        part = to_varints([section.kind, len(section.payload)]) + section.payload
+        ending = zlib.crc32(part, checksum).to_bytes(4, "little")
+        checksum = zlib.crc32(part + ending, checksum)
+        parts += [part, ending]
+    return b"".join(parts)
 
 
 def unpack(data: bytes, path: object, partial: bool = False) -> tuple[int, list[Section]]:
@@ -97,10 +100,13 @@ def unpack(data: bytes, path: object, partial: bool = False) -> tuple[int, list[
     if unknown:
         raise reader.fault(f"features {unknown:#04x} of a later beltrami, unknown here")
     sections: list[Section] = []
-    for _ in range(reader.varint(1 << 16, "sections")):
+    count = reader.varint(1 << 16, "sections")
+    checksum = zlib.crc32(data[: reader.position])
+    for _ in range(count):
         if partial and reader.position == len(data):
             break
-        sections.append(_section(reader, partial))
+        section, checksum = _section(reader, partial, checksum)
+        sections.append(section)
     if reader.position != len(data):
         raise reader.fault(f"{len(data) - reader.position} bytes after the last section")
     kinds = [section.kind for section in sections]
@@ -112,16 +118,22 @@ def unpack(data: bytes, path: object, partial: bool = False) -> tuple[int, list[
     return features, sections
 
 
-def _section(reader: Reader, partial: bool) -> Section:
+def _section(reader: Reader, partial: bool, checksum: int) -> tuple[Section, int]:
+    """Read a section; ``checksum`` is that of all bytes before it, and becomes that up to its end.
+
+    So each byte is added once, however many sections there are.
+    """
+    first = reader.position
     kind = reader.varint()
     if kind not in NAMES:
         raise reader.fault(f"a section of the kind {kind}, unknown here")
     length = reader.varint()
     start = reader.position
     if partial and start + length + 4 > len(reader.data):
-        return Section(kind, reader.rest()[:length], start, True)
+        return Section(kind, reader.rest()[:length], start, True), checksum
     payload = reader.take(length)
-    checksum = zlib.crc32(reader.data[: reader.position])
-    if int.from_bytes(reader.take(4), "little") != checksum:
+    checksum = zlib.crc32(reader.data[first : reader.position], checksum)
+    ending = reader.take(4)
+    if int.from_bytes(ending, "little") != checksum:
         raise reader.fault(f"the checksum of the section {NAMES[kind]!r} is wrong")
-    return Section(kind, payload, start)
+    return Section(kind, payload, start), zlib.crc32(ending, checksum)

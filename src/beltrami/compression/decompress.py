@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import Integers
+from beltrami._arrays import Integers, whole
 from beltrami._progress import Progress
 from beltrami.compression.attributes_reading import decode_attributes
 from beltrami.compression.connectivity import decode_connectivity
@@ -32,6 +32,7 @@ from beltrami.errors import FileFormatError
 from beltrami.mesh.mesh import Mesh
 
 MAX_VERTICES = 10_000_000
+_ALWAYS = 1 << 20  # numbers that are not too many
 
 
 def decompress(
@@ -50,7 +51,8 @@ def decompress(
     source
         The bytes that ``compress`` returned, or the name of a file of them.
     max_vertices
-        Refuse files that declare more: bounds time and memory where bytes cannot be trusted.
+        Refuse files that declare more, or more than 8 times as many faces or coordinates in all
+        (and some): bounds time and memory where bytes cannot be trusted.
     progress
         Called with (vertices decoded, n).
     partial
@@ -63,6 +65,8 @@ def decompress(
     ------
     FileFormatError
         If these are not the bytes of such a file; it says at which byte.
+    MeshError
+        If ``max_vertices`` is no whole number.
 
     Notes
     -----
@@ -75,16 +79,18 @@ def decompress(
     >>> decompress(compress(icosphere(1), bits=10))
     <Mesh: 42 vertices in R³, 80 faces>
     """
+    max_vertices = whole("max_vertices", max_vertices, least=0)
     data, path = bytes_of(source)
     features, sections = unpack(data, path, partial)
     cut = sections.pop() if sections and sections[-1].is_cut else None
     faces, n = decode_connectivity(_the(CONNECTIVITY, sections, path), max_vertices)
+    most = (8 * max_vertices + _ALWAYS) // max(n, 1)
     if features & PROGRESSIVE:
         last = cut if cut is not None and cut.kind == SPECTRUM else None
         reader = last.reader(path) if last else _the(SPECTRUM, sections, path)
-        x = decode_spectrum(reader, faces, n, progress, last is not None)
+        x = decode_spectrum(reader, faces, n, progress, last is not None, most)
     else:
-        x = decode_positions(_the(GRID, sections, path), faces, n, progress)
+        x = decode_positions(_the(GRID, sections, path), faces, n, progress, most)
     functions, uv = decode_attributes(sections, path, faces, n)
     if bool(features & KEEPS_ORDER) != any(section.kind == ORDER for section in sections):
         raise FileFormatError(path, "the order of the vertices is announced and not there")

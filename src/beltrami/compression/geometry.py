@@ -42,18 +42,34 @@ class Head:
     is_free: bool = False
 
 
-def read_head(reader: Reader) -> Head:
-    """Read what precedes the positions."""
+def read_dimension(reader: Reader, most: int) -> int:
+    """Read the number of coordinates; ``most`` of so many vertices are allowed."""
     d = reader.varint(MOST_COORDINATES, "coordinates")
     if d < 2:
         raise reader.fault(f"expected 2 or more coordinates, found {d}")
+    if d > most:
+        raise reader.fault(f"{d} coordinates of so many vertices (max_vertices can be raised)")
+    return d
+
+
+def read_bound(reader: Reader) -> float:
+    """Read the largest error."""
+    bound = float(np.frombuffer(reader.take(8), "<f8")[0])
+    if not 0 <= bound < np.inf:
+        raise reader.fault(f"the largest error is {bound}")
+    return bound
+
+
+def read_head(reader: Reader, most: int = MOST_COORDINATES) -> Head:
+    """Read what precedes the positions."""
+    d = read_dimension(reader, most)
     effort = EFFORTS[reader.varint(len(EFFORTS) - 1, "effort")]
     is_short = bool(reader.varint(1, "precision"))
     choice = reader.varint(FREE + len(WEIGHTS), "smoothing")
     grid = grids.from_bytes(reader.take((4 if is_short else 8) * (d + 1)), is_short)
     if not (np.isfinite(grid.origin).all() and 0 < grid.step < np.inf):
         raise reader.fault("the grid of positions has no positive step, or no finite origin")
-    bound = float(np.frombuffer(reader.take(8), "<f8")[0]) if choice else grid.bound
+    bound = read_bound(reader) if choice else grid.bound
     is_free = choice >= FREE
     return Head(grid, effort, choice - FREE if is_free else choice, bound, is_free)
 
@@ -99,10 +115,14 @@ def encode_freely(
 
 
 def decode_positions(
-    reader: Reader, faces: Integers, n: int, progress: Progress | None = None
+    reader: Reader,
+    faces: Integers,
+    n: int,
+    progress: Progress | None = None,
+    most: int = MOST_COORDINATES,
 ) -> Floats:
-    """Read positions (n, d)."""
-    head = read_head(reader)
+    """Read positions (n, d), of at most so many coordinates."""
+    head = read_head(reader, most)
     d, grid = len(head.grid.origin), head.grid
     near = surroundings(faces, n)
     read = decode_offsets if head.is_free else decode_numbers

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beltrami._jit import kernel
-from beltrami.compression.range_coder import adapt, code, code_number, code_uniform
+from beltrami.compression.range_coder import adapt, code, code_number, code_uniform, ran_dry
 from beltrami.compression.tables import whole
 
 
@@ -66,22 +66,30 @@ def from_gaps(gaps: NDArray[np.int64]) -> NDArray[np.int64]:
 
 @kernel
 def code_leftovers(left: Any, n: int, models: Any, state: Any, buffer: Any) -> None:
-    """Write them or read them; n is the number of final vertices.
+    """Write them or read them, as far as there are bytes; n is the number of final vertices.
 
     ``models`` (3, 128): for the two kinds of gaps, and for turned faces after turned ones or not.
     """
     for i in range(left.middles.size):
         left.middles[i] = code_number(left.middles[i], models[0], state, buffer)
+        if ran_dry(state, buffer):
+            return
     place = whole(-1)
     for i in range(left.merged.size):
         left.merged[i] = code_number(left.merged[i], models[1], state, buffer)
         place = min(place + left.merged[i] + 1, whole(1) << 40)
         left.target[i] = code_uniform(left.target[i], max(place - i, 1), state, buffer)
+        if ran_dry(state, buffer):
+            return
     last = 0
     for i in range(left.turned.size):
         last = code(whole(left.turned[i]), models[2, last], state, buffer)
         adapt(models[2], 0 if i == 0 else whole(left.turned[i - 1]), last)
         left.turned[i] = last
+        if ran_dry(state, buffer):
+            return
     for i in range(left.improper.shape[0]):
         for c in range(3):
             left.improper[i, c] = code_uniform(left.improper[i, c], n, state, buffer)
+        if ran_dry(state, buffer):
+            return

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from beltrami.compression import grid as grids
-from beltrami.compression.geometry import MOST_COORDINATES
+from beltrami.compression.geometry import MOST_COORDINATES, read_bound, read_dimension
 from beltrami.compression.grid import PositionGrid
 from beltrami.compression.numbers import EFFORTS
 from beltrami.compression.smoothing import WEIGHTS
@@ -64,25 +64,19 @@ class SpectralHead:
         return data + self.digest
 
 
-def read_spectral_head(reader: Reader, n: int) -> SpectralHead:
-    """Read what precedes the coefficients of n vertices."""
-    d = reader.varint(MOST_COORDINATES, "coordinates")
-    if d < 2:
-        raise reader.fault(f"expected 2 or more coordinates, found {d}")
+def read_spectral_head(reader: Reader, n: int, most: int = MOST_COORDINATES) -> SpectralHead:
+    """Read what precedes the coefficients of n vertices, of at most so many coordinates."""
+    d = read_dimension(reader, most)
     effort = EFFORTS[reader.varint(len(EFFORTS) - 1, "effort")]
     is_short = bool(reader.varint(1, "precision"))
     choice = reader.varint(len(WEIGHTS), "smoothing")
     grid = grids.from_bytes(reader.take((4 if is_short else 8) * (d + 1)), is_short)
-    bound = _double(reader)
+    bound = read_bound(reader)
     terms = reader.varint(MOST_IN_A_BLOCK[effort], "coefficients of a block")
     corrections = reader.varint(n, "corrections")
-    step = _double(reader) if corrections else 0.0
-    numbers = np.array([*grid.origin, grid.step, bound, step])
+    step = float(np.frombuffer(reader.take(8), "<f8")[0]) if corrections else 0.0
+    numbers = np.array([*grid.origin, grid.step, step])
     if not (np.isfinite(numbers).all() and grid.step > 0):
         raise reader.fault("the coefficients have no positive step, or no finite origin")
     digest = reader.take(_DIGEST)
     return SpectralHead(grid, effort, choice, bound, terms, corrections, step, digest)
-
-
-def _double(reader: Reader) -> float:
-    return float(np.frombuffer(reader.take(8), "<f8")[0])

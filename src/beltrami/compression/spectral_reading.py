@@ -10,6 +10,7 @@ from beltrami.compression.block_basis import BlockBasis
 from beltrami.compression.blocks import Blocks, cut_into_blocks
 from beltrami.compression.coefficients import code_coefficients, new_memory
 from beltrami.compression.corrections import decode_corrections
+from beltrami.compression.geometry import MOST_COORDINATES
 from beltrami.compression.numbers import surroundings
 from beltrami.compression.range_coder import new_decoder, readable
 from beltrami.compression.smoothing import smoothed
@@ -27,12 +28,13 @@ def decode_spectrum(
     n: int,
     progress: Progress | None = None,
     is_cut: bool = False,
+    most: int = MOST_COORDINATES,
 ) -> Floats:
-    """Read positions (n, d); of bytes that were cut off, what they say of them.
+    """Read positions (n, d <= most); of bytes that were cut off, what they say of them.
 
     Chapter items: P58, P66, P68.
     """
-    head = read_spectral_head(reader, n)
+    head = read_spectral_head(reader, n, most)
     near = surroundings(faces, n)
     blocks = cut_into_blocks(near, n, head.most)
     length, here = reader.varint(), len(reader.data) - reader.position
