@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from beltrami.errors import NotADiskError, UnknownNameError
+from beltrami.errors import MeshError, NotADiskError, UnknownNameError
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import cylinder, disk, grid, icosphere, torus
 from beltrami.parameterization.certificate import certify
@@ -167,3 +167,19 @@ def test_pieces_that_only_a_filling_held_together_lie_apart(seed):
 def test_no_hole_turns_inside_out_while_it_relaxes():
     """Here two edges of a hole would sweep over each other in one step, and cross nothing."""
     assert parameterize(riddled(185), holes="fill").is_bijective
+
+
+def test_corners_are_vertices_of_the_surface_not_of_a_filling():
+    mesh = SURFACES["torus, two holes"]
+    n = mesh.n_vertices
+    for vertex in (n, n + 1, n + 2):
+        with pytest.raises(MeshError, match=f"corners outside 0..{n - 1} ") as caught:
+            parameterize(mesh, boundary=3, bulge=0.02, corners=[0, 1, vertex], holes="fill")
+        assert caught.value.vertices.tolist() == [vertex]
+    ring = SURFACES["cylinder"]
+    (outer,) = fill_holes(ring).mesh.boundary_loops
+    psi = parameterize(ring, boundary=3, bulge=0.02, corners=outer[[0, 3, 7]], holes="fill")
+    assert psi.is_bijective
+    (inner,) = (loop for loop in ring.boundary_loops if loop[0] not in outer)
+    with pytest.raises(MeshError, match="not on the boundary"):
+        parameterize(ring, boundary=3, bulge=0.02, corners=inner[[0, 3, 7]], holes="fill")
