@@ -76,6 +76,9 @@ def test_json(beltrami, ball, tmp_path):
 def test_bad_requests(beltrami, ball, tmp_path):
     assert beltrami("atlas", ball, "-o", tmp_path / "out.ply").exit_code == 1
     assert beltrami("atlas", ball, "-o", tmp_path / "out.obj", "--size", 3).exit_code == 1
+    board = ("--size", 10**7, "--texture", "checkerboard")  # refused, not drawn
+    refused = beltrami("atlas", ball, "-o", tmp_path / "out.obj", *board)
+    assert (refused.exit_code, "65536" in refused.stderr) == (1, True)
     words = ("atlas", ball, "-o", tmp_path / "out.obj")
     assert beltrami(*words, "--max-distortion", 1).exit_code == 1
     assert beltrami(*words, "--colormap", "gray").exit_code == 2

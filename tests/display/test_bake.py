@@ -115,6 +115,9 @@ def test_colorize():
 
 
 def test_bad_input_is_told(ring):
+    for wrong in ([["a"]], [[1.0, 2.0], [3.0]]):
+        with pytest.raises(DimensionError):
+            colorize(wrong)
     ball = icosphere(1)
     with pytest.raises(MeshError, match="without texture coordinates"):
         bake(ball, np.zeros(ball.n_vertices))

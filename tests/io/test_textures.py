@@ -7,6 +7,7 @@ import pytest
 from PIL import Image
 
 from beltrami.errors import DimensionError, FileFormatError, MeshError, UnknownNameError
+from beltrami.io.picture import as_picture
 from beltrami.io.registry import read_mesh, write_mesh
 from beltrami.mesh.mesh import Mesh
 
@@ -83,4 +84,29 @@ def test_bad_input_is_told_and_nothing_is_written(tmp_path):
     (tmp_path / "bad.jpg").write_bytes(b"\xff\xd8")
     with pytest.raises(FileFormatError):
         write_mesh(tmp_path / "a.obj", TORN, texture=tmp_path / "bad.jpg")
+    with pytest.raises(DimensionError):
+        write_mesh(tmp_path / "a.obj", TORN, uv=np.zeros((3, 2)), texture=PICTURE)
     assert [path.name for path in tmp_path.iterdir()] == ["bad.jpg"]
+
+
+@pytest.mark.parametrize("suffix", [".png", ".jpg", ".gif"])
+def test_a_picture_that_ends_too_early_is_told(tmp_path, suffix):
+    noise = np.random.default_rng(0).integers(0, 256, (64, 64, 3), dtype=np.uint8)
+    path = tmp_path / f"a{suffix}"
+    Image.fromarray(noise).save(path)
+    raw = path.read_bytes()
+    for part in (0.05, 0.5, 0.9):
+        path.write_bytes(raw[: int(part * len(raw))])
+        with pytest.raises(FileFormatError, match="expected a picture"):
+            as_picture(path)
+    with pytest.raises(FileNotFoundError):
+        as_picture(tmp_path / "nothing.png")
+
+
+def test_pictures_of_sixteen_bits_and_of_floats_keep_their_grey(tmp_path):
+    grey = np.linspace(0, 1, 12).reshape(3, 4)
+    Image.fromarray(np.rint(grey * 65535).astype(np.uint16)).save(tmp_path / "grey.png")
+    Image.fromarray(grey.astype(np.float32)).save(tmp_path / "grey.tif")
+    for name in ("grey.png", "grey.tif"):
+        found = as_picture(tmp_path / name)
+        np.testing.assert_allclose(found, np.repeat(grey[..., None], 3, axis=2), atol=1e-5)

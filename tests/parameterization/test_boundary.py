@@ -5,7 +5,7 @@ import pytest
 
 from beltrami.errors import BoundaryCurveError, MeshError, UnknownNameError
 from beltrami.mesh.mesh import Mesh
-from beltrami.mesh.shapes import disk, grid
+from beltrami.mesh.shapes import disk, grid, torus
 from beltrami.parameterization.boundary import place_boundary, refuse_dividing_edges
 from beltrami.parameterization.parameterize import parameterize
 from meshes_of_the_errata import cur, open_
@@ -174,3 +174,45 @@ def test_bent_sides_are_strictly_convex_and_no_edge_divides_them():
             place_boundary(mesh, loop, 5, bulge=bulge)
     with pytest.raises(BoundaryCurveError, match="turn left"):  # corners of almost 180 degrees
         place_boundary(mesh, loop, 20, bulge=0.1)
+
+
+@pytest.mark.parametrize("bulge", ["much", None, [0.01]])
+def test_a_bulge_is_a_number(bulge):
+    with pytest.raises(BoundaryCurveError, match="bulge"):
+        parameterize(disk(3), boundary="square", bulge=bulge)
+
+
+def test_what_a_circle_cannot_use_is_refused():
+    with pytest.raises(BoundaryCurveError, match="bend"):
+        parameterize(disk(3), bulge=0.01)
+
+
+def test_more_sides_than_vertices_are_refused_before_they_are_made():
+    with pytest.raises(MeshError, match="10000000000 corners"):
+        parameterize(disk(3), boundary=10**10)
+
+
+def test_errors_name_vertices_and_edges_of_what_was_given():
+    """Two components: each is mapped as a mesh of its own, with numbers of its own."""
+    flat, square = disk(3), grid(2, 2)
+    n = flat.n_vertices
+    x = np.concatenate([flat.vertices, square.vertices + 5])
+    two = Mesh(x, np.concatenate([flat.faces, square.faces + n]))
+    with pytest.raises(BoundaryCurveError) as caught:
+        parameterize(two, boundary=3)
+    inner = two.edges[two.topology.half_edges.edge_face_count == 2]
+    assert {tuple(edge) for edge in caught.value.edges} <= {tuple(edge) for edge in inner.tolist()}
+    assert caught.value.edges.min() >= n
+    loop = square.boundary_loops[0][[0, 2, 4]] + n
+    with pytest.raises(MeshError, match="not on the boundary") as caught:
+        parameterize(two, boundary=3, corners=loop)  # which are not in the first one
+    np.testing.assert_array_equal(caught.value.vertices, loop)
+
+
+def test_edges_of_a_cut_surface_have_their_names_too():
+    mesh = torus(8, 6)
+    with pytest.raises(BoundaryCurveError) as caught:
+        parameterize(mesh, boundary=3)
+    assert caught.value.edges.max() < mesh.n_vertices
+    keys = mesh.edges @ [1000, 1]
+    assert np.isin(caught.value.edges @ [1000, 1], keys).all()

@@ -132,15 +132,21 @@ def test_held_vertices_and_errors():
             parameterize(mesh, "least_squares_conformal", corners=wrong)
     with pytest.raises(MeshError, match="hold no vertex"):
         parameterize(mesh, "spectral_conformal", corners=[0, 1])
-    for option in ({"weights": "clamped"}, {"boundary": "square"}, {"bulge": 0.01}):
+    for option in (
+        {"weights": "clamped"},
+        {"boundary": "square"},
+        {"bulge": 0.01},
+        {"spacing": "uniform"},
+    ):
         with pytest.raises(MeshError, match="free boundary"):
             parameterize(mesh, "spectral_conformal", **option)
     two = Mesh(
         np.tile(grid(2, 2).vertices, (2, 1)),
         np.concatenate([grid(2, 2).faces, grid(2, 2).faces + 9]),
     )
-    with pytest.raises(MeshError, match="component"):
+    with pytest.raises(MeshError, match="component") as caught:
         parameterize(two, "least_squares_conformal", corners=[0, 8])
+    assert caught.value.vertices.tolist() == [0, 8]
     assert parameterize(two, "spectral_conformal").is_bijective
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from beltrami.errors import NotADiskError, UnknownNameError
+from beltrami.errors import MeshError, NotADiskError, UnknownNameError
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import cylinder, disk, grid, icosphere, torus
 from beltrami.parameterization.certificate import certify
@@ -138,3 +138,48 @@ def test_vertices_keep_their_numbers_and_their_functions():
         np.testing.assert_array_equal(psi.mesh.vertex_data["number"], psi.vertex_map)
         keys = mesh.edges @ [10**6, 1]
         assert np.isin(psi.cut_edges @ [10**6, 1], keys).all()
+
+
+SHARES = {166: 0.03, 185: 0.25, 190: 0.25, 212: 0.1, 274: 0.1}  # of the faces that are left out
+
+
+def riddled(seed):
+    """A torus with many holes, so that cuts run into them and along them."""
+    draw = np.random.default_rng(seed)
+    ring = torus(int(draw.integers(6, 12)), int(draw.integers(5, 9)))
+    faces = ring.faces[draw.random(ring.n_faces) > SHARES[seed]]
+    used, local = np.unique(faces, return_inverse=True)
+    return Mesh(ring.vertices[used], local.reshape(-1, 3))
+
+
+@pytest.mark.parametrize("seed", [166, 190, 212, 274])
+def test_pieces_that_only_a_filling_held_together_lie_apart(seed):
+    mesh = riddled(seed)
+    for method in ("auto", "free"):
+        psi = parameterize(mesh, method, holes="fill")
+        assert psi.is_bijective
+        labels = psi.mesh.topology.components("edges")
+        assert labels.max() == psi.mesh.components().max() > 0
+        np.testing.assert_array_equal(psi.vertex_map[psi.mesh.faces], mesh.faces)
+        np.testing.assert_array_equal(psi.vertex_map[: mesh.n_vertices], np.arange(mesh.n_vertices))
+
+
+def test_no_hole_turns_inside_out_while_it_relaxes():
+    """Here two edges of a hole would sweep over each other in one step, and cross nothing."""
+    assert parameterize(riddled(185), holes="fill").is_bijective
+
+
+def test_corners_are_vertices_of_the_surface_not_of_a_filling():
+    mesh = SURFACES["torus, two holes"]
+    n = mesh.n_vertices
+    for vertex in (n, n + 1, n + 2):
+        with pytest.raises(MeshError, match=f"corners outside 0..{n - 1} ") as caught:
+            parameterize(mesh, boundary=3, bulge=0.02, corners=[0, 1, vertex], holes="fill")
+        assert caught.value.vertices.tolist() == [vertex]
+    ring = SURFACES["cylinder"]
+    (outer,) = fill_holes(ring).mesh.boundary_loops
+    psi = parameterize(ring, boundary=3, bulge=0.02, corners=outer[[0, 3, 7]], holes="fill")
+    assert psi.is_bijective
+    (inner,) = (loop for loop in ring.boundary_loops if loop[0] not in outer)
+    with pytest.raises(MeshError, match="not on the boundary"):
+        parameterize(ring, boundary=3, bulge=0.02, corners=inner[[0, 3, 7]], holes="fill")

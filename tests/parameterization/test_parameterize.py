@@ -22,6 +22,7 @@ from beltrami.io.registry import read_mesh, write_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import blob, cylinder, disk, icosphere, tetrahedron, torus
 from beltrami.mesh.tree_cotree import cut_to_disk
+from beltrami.parameterization.atlas import atlas
 from beltrami.parameterization.certificate import certify
 from beltrami.parameterization.flatten import flatten
 from beltrami.parameterization.parameterize import parameterize
@@ -219,5 +220,10 @@ def test_bad_input():
     for function in (parameterize, flatten, cut_to_disk):
         with pytest.raises(DimensionError, match="a Mesh is needed"):
             function((sphere.vertices, sphere.faces))
-    with pytest.raises(MeshError, match="seams"):
-        parameterize(sphere, seams=-1)
+    for seams in (-1, 1.5, "two", True):
+        with pytest.raises(MeshError, match="seams"):
+            parameterize(sphere, seams=seams)
+        with pytest.raises(MeshError, match="seams"):
+            atlas(sphere, seams=seams)
+    with pytest.raises(UnknownNameError, match="spacing"):
+        parameterize(sphere, "spectral_conformal", spacing="even")

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from beltrami.parameterization.texture_atlas import TextureAtlas
 
 Option = typer.Option
+_BOARD = 4096  # texels along a side of a checkerboard: more show nothing more
 
 
 def atlas(
@@ -97,7 +98,9 @@ def _picture(texture: str, size: int) -> Any:
     from beltrami.display.texture import checkerboard
     from beltrami.io.picture import as_picture
 
-    return checkerboard(size) if texture == "checkerboard" else as_picture(Path(texture))
+    return (
+        checkerboard(min(size, _BOARD)) if texture == "checkerboard" else as_picture(Path(texture))
+    )
 
 
 def _baked(found: TextureAtlas, values: Any, colormap: Any, limits: Any) -> Any:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, as_function, require_finite, whole
+from beltrami._arrays import Floats, as_floats, as_function, require_finite, whole
 from beltrami._jit import kernel
 from beltrami.display.raster import NOTHING, visible_triangles
 from beltrami.display.srgb import Image
@@ -111,7 +111,7 @@ def colorize(
     >>> colorize([[0.0, 1.0]], [[0, 0, 0], [1, 1, 1]]).tolist()
     [[[0, 0, 0], [255, 255, 255]]]
     """
-    given = np.asarray(values, dtype=np.float64)
+    given = as_floats(values)
     if given.ndim != 2 or not given.size:
         raise DimensionError(f"numbers of the shape {given.shape} where (h, w) is needed")
     require_finite(given, "the picture")

@@ -9,7 +9,6 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 from PIL import Image as Pillow
-from PIL import UnidentifiedImageError
 
 from beltrami._arrays import Floats, rectangular
 from beltrami.errors import DimensionError, FileFormatError, MeshError
@@ -23,8 +22,8 @@ def as_picture(picture: Picture) -> Floats:
     Parameters
     ----------
     picture
-        The name of a file that Pillow reads, such as PNG or JPEG (transparency is left out); or
-        (h, w, 3) sRGB or (h, w) grey values, in [0, 1] or as uint8.
+        The name of a file that Pillow reads, such as PNG or JPEG (transparency is left out; grey
+        may have 16 bits); or (h, w, 3) sRGB or (h, w) grey values, in [0, 1] or as uint8.
 
     Raises
     ------
@@ -41,8 +40,10 @@ def as_picture(picture: Picture) -> Floats:
     if isinstance(picture, str | os.PathLike):
         try:
             with Pillow.open(picture) as file:
-                return np.asarray(file.convert("RGB"), dtype=np.float64) / 255.0
-        except (UnidentifiedImageError, Pillow.DecompressionBombError, SyntaxError) as cause:
+                return _values(file)
+        except Exception as cause:  # Pillow raises anything on a broken file
+            if isinstance(cause, OSError) and cause.errno is not None:
+                raise  # not there, or not to be read
             raise FileFormatError(picture, "expected a picture, such as PNG or JPEG") from cause
     given = rectangular(picture)
     if given.ndim not in (2, 3) or given.size == 0 or (given.ndim == 3 and given.shape[2] != 3):
@@ -55,6 +56,15 @@ def as_picture(picture: Picture) -> Floats:
             "values of a picture outside [0, 1]", remedy="Give sRGB in [0, 1], or as uint8."
         )
     return np.repeat(values[:, :, None], 3, axis=2) if given.ndim == 2 else values
+
+
+def _values(file: Pillow.Image) -> Floats:
+    """Return the sRGB of an open file; its own conversion would cut numbers above 255."""
+    if file.mode == "F":
+        return as_picture(np.asarray(file))
+    if file.mode.startswith("I"):  # grey of 16 bits
+        return as_picture(np.asarray(file) / 65535.0)
+    return np.asarray(file.convert("RGB"), dtype=np.float64) / 255.0
 
 
 def as_pillow(picture: Picture) -> Pillow.Image:

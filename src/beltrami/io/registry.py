@@ -153,6 +153,7 @@ def write_mesh(
     turns = None if uv is None else as_floats(uv)
     if turns is not None or texture is not None:
         check_name("format for texture coordinates", suffix, TEXTURED)
+        corner_texture(mesh, turns)  # before anything is written
     if texture is not None:
         if turns is None and mesh.corner_uv is None:
             raise MeshError(

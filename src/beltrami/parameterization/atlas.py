@@ -132,6 +132,7 @@ def atlas(
     whole("size", size, least=16, most=65536)
     whole("padding", padding, least=0, most=size // 4)
     whole("the number of charts", count, least=1, most=mesh.n_faces)
+    whole("the number of seams", seams, least=0)
     check_name("treatment of holes", holes, HOLES)
     filled = fill_holes(mesh) if holes == "fill" else Filled.without_any(mesh)
     first = segment_into_disks(filled.mesh, count, method=cells).labels

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import numbers
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, Integers, rectangular
-from beltrami.errors import BoundaryCurveError, MeshError, check_name
+from beltrami.errors import BoundaryCurveError, MeshError, check_name, shown
 from beltrami.mesh.mesh import Mesh
 from beltrami.parameterization.crossings import crossings
 from beltrami.parameterization.predicates import orientation
@@ -55,7 +56,8 @@ def place_boundary(
     Raises
     ------
     BoundaryCurveError
-        If the polygon is not convex and counter-clockwise, or has a corner twice.
+        If the polygon is not convex and counter-clockwise, or has a corner twice; if a bulge is
+        not from 0 to 0.1, or is given for a circle.
     MeshError
         If the corners are not vertices of the loop in its order, or outnumber them.
     UnknownNameError
@@ -76,12 +78,16 @@ def place_boundary(
     if isinstance(curve, str) and check_name("boundary curve", curve, CURVES) == "circle":
         if corners is not None:
             raise MeshError("a circle has no corners to place vertices at")
+        if bulge != 0:
+            raise BoundaryCurveError("a circle has no straight sides to bend by a bulge")
         turn = 2 * np.pi * (np.cumsum(steps) - steps) / steps.sum()
         return np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    if isinstance(curve, int | np.integer) and curve > len(loop):
+        raise MeshError(f"a loop of {len(loop)} vertices cannot fill a polygon of {curve} corners")
     polygon = corners_of(curve)
     at = _corner_places(loop, steps, polygon, corners)
-    if not 0 <= bulge <= _LARGEST_BULGE:
-        raise BoundaryCurveError(f"a bulge is from 0 to {_LARGEST_BULGE}, not {bulge}")
+    if not (isinstance(bulge, numbers.Real) and 0 <= bulge <= _LARGEST_BULGE):
+        raise BoundaryCurveError(f"a bulge is from 0 to {_LARGEST_BULGE}, not {shown(bulge)}")
     placed = _along(polygon, at, steps, bulge)
     if bulge > 0:
         require_convex(placed)
@@ -166,7 +172,9 @@ def _along(polygon: Floats, at: Integers, steps: Floats, bulge: float) -> Floats
     return placed
 
 
-def refuse_dividing_edges(mesh: Mesh, loop: Integers, placed: Floats) -> None:
+def refuse_dividing_edges(
+    mesh: Mesh, loop: Integers, placed: Floats, names: Integers | None = None
+) -> None:
     """Raise BoundaryCurveError for inner edges with both ends on one straight side.
 
     The part of the disk that such an edge cuts off has all of its boundary on a line, so it gets
@@ -177,7 +185,7 @@ def refuse_dividing_edges(mesh: Mesh, loop: Integers, placed: Floats) -> None:
     Raises
     ------
     BoundaryCurveError
-        With the edges.
+        With the edges; their ends have the ``names``, (n,), of those vertices if these are given.
     """
     before, after = np.roll(placed, 1, axis=0), np.roll(placed, -1, axis=0)
     scale = np.abs(placed - before).sum(axis=1) * np.abs(after - placed).sum(axis=1)
@@ -198,7 +206,7 @@ def refuse_dividing_edges(mesh: Mesh, loop: Integers, placed: Floats) -> None:
         raise BoundaryCurveError(
             "inner edges have both ends on one straight side of the boundary curve, and what they "
             "cut off would get no area",
-            edges=inner[common],
+            edges=inner[common] if names is None else np.sort(names[inner[common]], axis=1),
             remedy='Take boundary="circle", bend the sides a little (bulge=0.01), or place corners '
             "between their ends.",
         )

@@ -64,7 +64,7 @@ class Mapped:
 def map_component(current: Cut, uv: Floats, faces: Booleans, asked: Request) -> Mapped:
     """Map one component, with more seams where it is bad and they are allowed."""
     part, number = part_of(current.mesh, faces)
-    best = _solved(part, number, asked)
+    best = _solved(current, part, number, asked)
     seams, tries = asked.seams if asked.cut else 0, 0
     while True:
         folded = best.flips > 0 and asked.cut and asked.rescue
@@ -75,7 +75,7 @@ def map_component(current: Cut, uv: Floats, faces: Booleans, asked: Request) -> 
         for seam in _seams(part, best):
             longer = _extended(current, number[seam])
             pieces = part_of(longer.mesh, faces)
-            found.append((_solved(*pieces, asked), longer, *pieces))
+            found.append((_solved(longer, *pieces, asked), longer, *pieces))
         if not found:
             break
         step, longer, new_part, new_number = min(found, key=lambda one: one[0].rank)
@@ -90,25 +90,23 @@ def map_component(current: Cut, uv: Floats, faces: Booleans, asked: Request) -> 
     return Mapped(current, uv, drawn)
 
 
-def _solved(part: Mesh, number: Integers, asked: Request) -> Step:
-    """Map a disk."""
+def _solved(current: Cut, part: Mesh, number: Integers, asked: Request) -> Step:
+    """Map a disk, a part of the cut surface whose vertices have these numbers there."""
     loop = part.topology.boundary_loops[0]
-    corners = None
-    if asked.corners is not None:
-        place = {int(v): q for q, v in enumerate(number)}
-        found = [place.get(v, -1) for v in asked.corners.tolist()]
-        corners = np.array(found, dtype=np.int64)
     if asked.method == "spectral_conformal":
         return assess(part, spectral_conformal(part))
     if asked.method == "least_squares_conformal":
-        if corners is not None and (corners < 0).any():
-            raise MeshError("the vertices that are held belong to another component")
-        return assess(part, least_squares_conformal(part, corners))
+        return assess(part, least_squares_conformal(part, _held(number, asked.corners)))
     placed = place_boundary(
-        part, loop, asked.boundary, spacing=asked.spacing, corners=corners, bulge=asked.bulge
+        current.mesh,
+        number[loop],
+        asked.boundary,
+        spacing=asked.spacing,
+        corners=asked.corners,
+        bulge=asked.bulge,
     )
     if not (isinstance(asked.boundary, str) and asked.boundary == "circle"):
-        refuse_dividing_edges(part, loop, placed)
+        refuse_dividing_edges(part, loop, placed, current.vertex_map[number])
     steps: list[Step] = []
     for kind in asked.weights:
         W, symmetric = edge_weights(part, kind), is_symmetric(kind)
@@ -123,6 +121,18 @@ def _solved(part: Mesh, number: Integers, asked: Request) -> Step:
         if steps[-1].rank <= (0, _BAD):
             break
     return min(steps, key=lambda step: step.rank)
+
+
+def _held(number: Integers, corners: Integers | None) -> Integers | None:
+    """Return the vertices of a component that are to be held, if any are given."""
+    if corners is None:
+        return None
+    outside = ~np.isin(corners, number)
+    if outside.any():
+        raise MeshError(
+            "the vertices that are held belong to another component", vertices=corners[outside]
+        )
+    return np.searchsorted(number, corners)
 
 
 def _relaxed(part: Mesh, start: Step, asked: Request) -> Step:

@@ -9,6 +9,7 @@ import numpy as np
 from beltrami._arrays import Booleans, Floats, Integers, read_only
 from beltrami.mesh.cut import Cut, cut_along
 from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.topology import Topology
 
 HOLES = ("cut", "fill")
 _HEIGHT = 0.01  # of the tip above a hole, over its length: no fan has a face without area
@@ -77,11 +78,16 @@ def _length(loop: Floats) -> float:
 def emptied(filled: Filled, mesh: Mesh, current: Cut, f: Floats) -> tuple[Cut, Floats]:
     """Take the fans out of a cut of the filled surface and of a function on it.
 
-    The first copy of each vertex keeps its number, the others come at the end.
+    The first copy of each vertex keeps its number, the others come at the end. Pieces that only a
+    fan held together have no vertex in common: they are components of their own.
     """
     apart = filled.apart
     n, m = apart.mesh.n_vertices, apart.mesh.n_faces
-    used, local = np.unique(current.mesh.faces[:m], return_inverse=True)
+    real = Topology(current.mesh.faces[:m], current.mesh.n_vertices)
+    pieces = real.components("edges")
+    count = int(pieces.max()) + 1
+    keys, local = np.unique(real.faces * count + pieces[:, None], return_inverse=True)
+    used = keys // count
     before = current.vertex_map[used]
     _, first = np.unique(before, return_index=True)
     order = np.concatenate([first, np.setdiff1d(np.arange(len(used)), first)])

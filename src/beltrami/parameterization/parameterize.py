@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, as_indices
+from beltrami._arrays import Floats, as_indices, whole
 from beltrami.errors import MeshError, NotADiskError, check_name
 from beltrami.mesh.cut import Cut
 from beltrami.mesh.door import require_mesh
@@ -13,7 +13,7 @@ from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.tree_cotree import cut_to_disk
 from beltrami.operators.soundness import refuse_unreferenced, require_sound
 from beltrami.operators.weights import Weigher
-from beltrami.parameterization.boundary import Curve
+from beltrami.parameterization.boundary import SPACINGS, Curve
 from beltrami.parameterization.components import CONFORMAL, Request, map_component, settle
 from beltrami.parameterization.holes import HOLES, Filled, emptied, fill_holes
 from beltrami.parameterization.layout import part_of, side_by_side
@@ -75,8 +75,8 @@ def parameterize(
     spacing
         ``"arclength"`` or ``"uniform"``.
     corners
-        Vertices of the boundary that go to the corners of the polygon; of
-        ``"least_squares_conformal"`` the two vertices that are held.
+        Vertices of the boundary that go to the corners of the polygon, not those of a hole that
+        is filled; of ``"least_squares_conformal"`` the two vertices that are held.
     bulge
         Bend its sides outwards, by this part of their length: where inner edges have both ends on
         one side, 0.01 helps.
@@ -133,17 +133,18 @@ def parameterize(
     require_sound(require_mesh(mesh, "a parameterisation"))
     if not mesh.topology.referenced.all():
         refuse_unreferenced(mesh.topology)
-    if seams < 0:
-        raise MeshError(f"the number of seams cannot be {seams}")
+    whole("the number of seams", seams, least=0)
+    check_name("spacing", spacing, SPACINGS)
     if method in CONFORMAL:
-        _refuse_what_is_not_used(mesh, method, weights, boundary, corners, bulge)
+        _refuse_what_is_not_used(mesh, method, weights, boundary, spacing, corners, bulge)
     kinds = _DEFAULTS.get(method, ()) if weights is None else (weights,)
     filled = fill_holes(mesh) if check_name("treatment of holes", holes, HOLES) == "fill" else None
     if filled is not None and filled.mesh.n_faces == mesh.n_faces:
         filled = None
     given = mesh if filled is None else filled.mesh
     current = cut_to_disk(given) if cut else _as_it_is(given)
-    places = None if corners is None else as_indices(corners, current.mesh.n_vertices, "corners")
+    known = current.mesh if filled is None else filled.apart.mesh  # fillings have no vertices
+    places = None if corners is None else as_indices(corners, known.n_vertices, "corners")
     asked = Request(method, kinds, boundary, spacing, places, bulge, seams, cut, draw=strict)
     labels = current.mesh.components()
     uv, drawn = np.zeros((current.mesh.n_vertices, 2)), 0
@@ -188,15 +189,16 @@ def _refuse_what_is_not_used(
     method: str,
     weights: str | Weigher | None,
     boundary: Curve,
+    spacing: str,
     corners: ArrayLike | None,
     bulge: float,
 ) -> None:
     """Raise MeshError for options that conformal maps would ignore."""
     on_circle = isinstance(boundary, str) and boundary == "circle"
-    if weights is not None or not on_circle or bulge != 0:
+    if weights is not None or not on_circle or spacing != SPACINGS[0] or bulge != 0:
         raise MeshError(
             f"{method.replace('_', ' ')} maps have cotangent weights and a free boundary: weights, "
-            "boundary and bulge are not for them"
+            "boundary, spacing and bulge are not for them"
         )
     if corners is None:
         return

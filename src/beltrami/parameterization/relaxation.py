@@ -13,6 +13,7 @@ from beltrami.errors import BeltramiError
 from beltrami.mesh.mesh import Mesh
 from beltrami.parameterization.barrier import Barrier, boundary_barrier
 from beltrami.parameterization.block_pattern import BlockPattern, block_pattern
+from beltrami.parameterization.certificate import turns_left
 from beltrami.parameterization.crossings import crossings
 from beltrami.parameterization.isometric_energy import (
     IsometricEnergy,
@@ -43,8 +44,9 @@ def relax(
     the best scale, is infinite where a face collapses. Each step is one of Newton, with the
     Hessian of each face projected to the semi-definite matrices. It is shortened so that no face
     turns over (J. Smith, S. Schaefer, Bijective parameterization with free boundaries, 2015), the
-    boundary does not cross itself, both decided exactly, and the energy falls; or made longer,
-    as long as it falls. A barrier lets a boundary slide along itself (see ``Barrier``).
+    boundary does not cross itself nor turn inside out, all decided exactly, and the energy falls;
+    or made longer, as long as it falls. A barrier lets a boundary slide along itself (see
+    ``Barrier``).
 
     Parameters
     ----------
@@ -161,8 +163,19 @@ def _shortened(
         if here < start + 1e-4 * step * slope:
             moved = x + step * direction
             a, b, c = moved[mesh.faces].transpose(1, 0, 2)
-            if (orientation(a, b, c) > 0).all() and not len(crossings(moved, edges)):
+            upright = (orientation(a, b, c) > 0).all() and not len(crossings(moved, edges))
+            if upright and (barrier is None or _as_before(mesh, x, moved)):
                 return moved, start, here
         step /= 2
         here = total(x + step * direction)
     return None
+
+
+def _as_before(mesh: Mesh, x: Floats, moved: Floats) -> bool:
+    """Whether each loop runs the same way round as at x.
+
+    Two edges of the boundary with a common end may sweep over each other in one step: no face is
+    turned over, nothing crosses any more, but around a hole the image lies twice.
+    """
+    loops = mesh.topology.boundary_loops
+    return all(turns_left(moved[loop]) == turns_left(x[loop]) for loop in loops)
