@@ -58,7 +58,7 @@ def make_texture(mesh: Mesh, picture: Picture) -> Texture:
         If there is no such pattern; and what ``as_picture`` raises.
     """
     uv = np.full((1, 3, 2), np.nan) if mesh.corner_uv is None else mesh.corner_uv
-    finite = np.isfinite(uv).all(axis=2)
+    finite = np.asarray(np.isfinite(uv).all(axis=2))
     if not finite.any():
         raise MeshError(
             "a mesh without texture coordinates takes no texture",
