@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from beltrami.diffusion.denoise import denoise
 from beltrami.diffusion.heat import heat
 from beltrami.display.page import page
 from beltrami.errors import (
@@ -97,6 +98,8 @@ def test_heat_of_the_page_is_that_of_the_library(shape, written):
     assert np.abs(entry["low"] + entry["step"] * levels - f[order]).max() <= entry["step"] * 0.5001
     pair = laplacian(shape)
     basis = fourier_basis(pair, 20)
+    outside = spectrum["functions"][index]["outside"]
+    assert outside == pytest.approx(pair.norm(f - basis.truncate(f, 20)), rel=1e-6)
     for t in (0.02, 0.1):
         truth = heat(pair, f, t, "spectral", basis=basis, tolerance=1.0)
         factors = np.exp(-t * np.array(spectrum["eigenvalues"]))
@@ -132,6 +135,11 @@ def test_noise_and_its_end(shape, written):
         distance = np.sqrt((away**2).sum(axis=1).mean())
         assert distance == pytest.approx(comparison["errors"][name], rel=0.02)
     assert comparison["errors"]["noisy"] == pytest.approx(comparison["sigma"], rel=0.1)
+    noisy = shape.vertices.copy()
+    noisy[numbers(written)] += comparison["step"] * sections["noisy"]
+    found = denoise(shape.with_vertices(noisy)).sigma
+    assert comparison["found"] != comparison["sigma"]
+    assert comparison["found"] == pytest.approx(found, rel=0.02)
 
 
 @pytest.mark.parametrize(
