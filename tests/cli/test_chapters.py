@@ -11,6 +11,7 @@ from beltrami.cli.chapters.geodesics import geodesics
 from beltrami.cli.chapters.grid import grid as flat_grid
 from beltrami.cli.chapters.heat import heat
 from beltrami.cli.chapters.interactive import interactive
+from beltrami.cli.chapters.maps import maps
 from beltrami.cli.chapters.operators import operators
 from beltrami.cli.chapters.spectrum import spectrum
 from beltrami.cli.chapters.surface import surface
@@ -44,7 +45,7 @@ MESHES = {
 }
 CHAPTERS = (
     interactive, surface, operators, averaging, flat_grid, heat, denoising, waves, spectrum,
-    compression, geodesics, files,
+    compression, maps, geodesics, files,
 )  # fmt: skip
 
 

@@ -1,7 +1,9 @@
 import numpy as np
 import pytest
 
-from beltrami.io.registry import read_mesh
+from beltrami.io.registry import read_mesh, write_mesh
+from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.shapes import icosphere
 
 
 def test_a_page_is_written(beltrami, sphere, tmp_path):
@@ -48,3 +50,14 @@ def test_a_mesh_with_a_stray_vertex_names_the_remedy(beltrami, stray, tmp_path):
     done = beltrami("page", stray, "-o", tmp_path / "p.html")
     assert done.exit_code == 1
     assert "repair" in done.stderr
+
+
+def test_why_something_is_missing_is_said_in_commands(beltrami, tmp_path):
+    faces = icosphere(1).faces.copy()
+    faces[5] = faces[5, ::-1]
+    write_mesh(tmp_path / "turned.ply", Mesh(icosphere(1).vertices, faces))
+    done = beltrami(
+        "page", tmp_path / "turned.ply", "-o", tmp_path / "p.html", "-k", 5, "--no-plane"
+    )
+    assert done.exit_code == 0, done.stderr
+    assert "`beltrami repair --orient`" in done.stdout

@@ -28,10 +28,12 @@ def test_its_commands_run_in_its_folder(folder, beltrami, monkeypatch):
     monkeypatch.chdir(folder)
     blocks = re.findall(r"<pre>(.*?)</pre>", (folder / "index.html").read_text("utf-8"), re.S)
     smoothed = read_mesh("smoothed.ply").vertices.copy()
+    interactive = (folder / "page.html").read_bytes()
     for command in "\n".join(blocks).splitlines():
         done = beltrami(*shlex.split(command)[1:])
         assert done.exit_code == 0, done.stderr
     assert (read_mesh("smoothed.ply").vertices == smoothed).all()
+    assert (folder / "page.html").read_bytes() == interactive
 
 
 def test_a_mesh_with_defects_is_repaired_on_a_copy(beltrami, stray, tmp_path):

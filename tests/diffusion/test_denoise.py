@@ -401,6 +401,10 @@ class TestScans:
         mesh = Mesh(np.eye(4, 3) + 1, [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]][:faces])
         assert np.isfinite(denoise(mesh).mesh.vertices).all()
 
+    def test_a_closed_mesh_without_a_volume(self):
+        for x in (np.eye(3), np.eye(3) * [1, 1, 0]):
+            assert np.isnan(denoise(Mesh(x, [[0, 1, 2], [0, 2, 1]])).volume_change)
+
     def test_what_is_refused(self):
         with pytest.raises(UnknownNameError):
             denoise(BLOB, "best")

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from beltrami.diffusion.denoise import denoise
 from beltrami.diffusion.heat import heat
 from beltrami.display.page import page
 from beltrami.errors import (
@@ -97,6 +98,8 @@ def test_heat_of_the_page_is_that_of_the_library(shape, written):
     assert np.abs(entry["low"] + entry["step"] * levels - f[order]).max() <= entry["step"] * 0.5001
     pair = laplacian(shape)
     basis = fourier_basis(pair, 20)
+    outside = spectrum["functions"][index]["outside"]
+    assert outside == pytest.approx(pair.norm(f - basis.truncate(f, 20)), rel=1e-6)
     for t in (0.02, 0.1):
         truth = heat(pair, f, t, "spectral", basis=basis, tolerance=1.0)
         factors = np.exp(-t * np.array(spectrum["eigenvalues"]))
@@ -132,6 +135,11 @@ def test_noise_and_its_end(shape, written):
         distance = np.sqrt((away**2).sum(axis=1).mean())
         assert distance == pytest.approx(comparison["errors"][name], rel=0.02)
     assert comparison["errors"]["noisy"] == pytest.approx(comparison["sigma"], rel=0.1)
+    noisy = shape.vertices.copy()
+    noisy[numbers(written)] += comparison["step"] * sections["noisy"]
+    found = denoise(shape.with_vertices(noisy)).sigma
+    assert comparison["found"] != comparison["sigma"]
+    assert comparison["found"] == pytest.approx(found, rel=0.02)
 
 
 @pytest.mark.parametrize(
@@ -171,6 +179,9 @@ def test_planar_meshes_have_no_noise(tmp_path):
         ({"laplacians": ("cotan",)}, UnknownNameError),
         ({"noise": np.nan}, BeltramiError),
         ({"noise": -1}, BeltramiError),
+        ({"noise": 1e12, "plane": False}, BeltramiError),
+        ({"f": np.full(42, 1e20)}, BeltramiError),
+        ({"f": np.linspace(0, 1e-40, 42)}, BeltramiError),
         ({"up": "w"}, UnknownNameError),
         ({"f": np.zeros(3)}, DimensionError),
         ({"f": np.zeros((42, 2))}, DimensionError),
@@ -193,6 +204,21 @@ def test_meshes_that_do_not_fit(tmp_path):
         page(Mesh(np.eye(4), [[0, 1, 2], [0, 2, 3]]), tmp_path / "p.html")
     with pytest.raises(DimensionError):
         page(icosphere(1).topology, tmp_path / "p.html")
+
+
+@pytest.mark.parametrize("scale", [1e-20, 1e100])
+def test_units_that_a_graphics_card_cannot_take(scale, tmp_path):
+    mesh = icosphere(1)
+    with pytest.raises(BeltramiError, match="another unit"):
+        page(mesh.with_vertices(mesh.vertices * scale), tmp_path / "p.html", noise=0)
+
+
+def test_parts_that_are_too_far_from_each_other(tmp_path):
+    mesh, n = icosphere(1), icosphere(1).n_vertices
+    x = np.concatenate([mesh.vertices, mesh.vertices + 1e9])
+    far = Mesh(x, np.concatenate([mesh.faces, mesh.faces + n]))
+    with pytest.raises(BeltramiError, match="positions of a page"):
+        page(far, tmp_path / "p.html", noise=0, plane=False)
 
 
 def test_the_same_mesh_gives_the_same_bytes(tmp_path):

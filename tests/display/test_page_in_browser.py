@@ -190,12 +190,17 @@ def test_a_request_would_be_refused_and_seen(browser, file):
 @pytest.mark.chapter("F3.7")
 def test_eigenfunctions(visit, shape, basis):
     steps = step_of(visit)
+    visit.slide("mode", 12)  # the first one of a group of four
+    assert np.abs(visit.values() - basis.eigenvectors[:, 12]).max() <= steps[12] * 0.51
     visit.changes_by(lambda: visit.slide("mode", 11), 0.02)
     away = np.abs(visit.values() - basis.eigenvectors[:, 11])
     assert away.max() <= steps[11] * 0.51
     assert number(visit.told()["λ"]) == pytest.approx(basis.eigenvalues[11], rel=0.01)
     assert "1/mm²" in visit.told()["λ"]
     assert int(visit.told()["Regions of one sign"]) <= 12
+    weyl = 4 * np.pi * 11 / shape.area
+    assert number(visit.told()["Weyl: 4π i / area"]) == pytest.approx(weyl, rel=0.01)
+    assert np.median(np.abs(under_the_ink(visit, shape, basis.eigenvectors[:, 11]))) < 0.08
     ink = (visit.picture().max(axis=2) < 45).sum()
     visit.tab.uncheck("#nodal-line")
     visit.wait()
@@ -204,6 +209,21 @@ def test_eigenfunctions(visit, shape, basis):
     moved = np.linalg.norm(visit.positions() - shape.vertices, axis=1)
     phi = np.abs(basis.eigenvectors[:, 11])
     np.testing.assert_allclose(moved / moved.max(), phi / phi.max(), atol=0.02)
+
+
+def under_the_ink(visit, shape, f):
+    """Return f over its largest value at the vertices that are seen next to dark pixels."""
+    picture = visit.picture()
+    scale = visit.js("beltrami.app.canvas.clientWidth") / picture.shape[1]
+    rows, columns = np.nonzero(picture[: int(0.8 * len(picture))].max(axis=2) < 45)
+    seen = projected(visit, shape.vertices)
+    found = []
+    for spot in np.c_[columns, rows][::7] * scale:
+        near = np.flatnonzero(np.hypot(*(seen[:, :2] - spot).T) < 10)
+        if len(near):
+            found.append(f[near[seen[near, 2].argmin()]])
+    assert len(found) > 20
+    return np.array(found) / np.abs(f).max()
 
 
 def test_heat_is_that_of_the_library(visit, shape, basis):
@@ -299,7 +319,10 @@ def test_waves(visit, shape, basis):
     visit.changes_by(lambda: visit.slide("wave-lift", 1))
     visit.tab.click("#wave-again")
     assert visit.js("beltrami.app.panel.state.time") == 0
-    assert visit.values().max() > 0
+    marked = visit.js("beltrami.app.numberOf(beltrami.app.marked)")
+    bump = np.exp(-2.5 * basis.eigenvalues / basis.eigenvalues[-1])  # heat, not a spike
+    start = basis.eigenvectors @ (bump * basis.eigenvectors[marked])
+    assert np.abs(visit.values() - start).max() < 0.03 * start.max()
 
 
 @pytest.mark.chapter("F3.9")
@@ -320,6 +343,9 @@ def test_the_shape_of_the_first_terms(visit, shape, basis):
         )
         size = np.sqrt(((shape.vertices - centre) ** 2).sum(axis=1) @ pair.masses)
         assert number(told["Error beside the size"]) == pytest.approx(100 * error / size, rel=0.02)
+    drawn = visit.picture()[:400].reshape(-1, 3)
+    red, _, blue = drawn[drawn.max(axis=1) < 240].mean(axis=0)
+    assert red > blue + 10  # clay; the inside would be slate
     visit.slide("terms", 0)
     assert np.ptp(visit.positions(), axis=0).max() < 1e-6
     visit.tab.click("#terms-play")

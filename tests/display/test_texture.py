@@ -133,9 +133,10 @@ def test_the_checkerboard_has_sixteen_squares_whatever_the_unit():
     assert checkerboard(32).shape == (32, 32, 3)
 
 
-def test_corners_without_coordinates_are_plain():
+@pytest.mark.parametrize("none", [np.nan, np.inf, -np.inf])
+def test_corners_without_coordinates_are_plain(none):
     uv = CORNERS[np.array(FACES)].copy()
-    uv[0, 1] = np.nan
+    uv[0, 1] = none
     mesh = Mesh(CORNERS, FACES, corner_uv=uv)
     red = np.broadcast_to([1.0, 0, 0], (2, 2, 3))
     shown = render(mesh, size=(40, 40), texture=red, color="white", antialias=1, **EYE)

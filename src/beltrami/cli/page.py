@@ -11,6 +11,7 @@ from beltrami.cli.console import waiting
 from beltrami.cli.functions import read_data
 from beltrami.cli.options import Data, DataName, MeshFile
 from beltrami.cli.outputs import check_page_output
+from beltrami.cli.remedies import as_commands
 
 Option = typer.Option
 
@@ -70,5 +71,5 @@ def page(
             progress=progress,
         )
     for note in written.notes:
-        typer.echo(note)
+        typer.echo(as_commands(note))
     typer.echo(f"wrote {output}: {written.size / 1e6:.2f} MB. Open it in a browser")

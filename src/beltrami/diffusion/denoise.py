@@ -30,6 +30,7 @@ _SAMPLE = 40_000  # faces on which mixtures are chosen, all parts together
 _LEAST_SAMPLE = 8_000  # of one part
 _PARTS = 8  # at most, with a choice of their own
 _OWN = 1_000  # vertices of a component below which it has no choice of its own
+_NO_VOLUME = 1e-12  # of the power 3/2 of the area
 _SMALL = 200  # vertices below which only linear filters are trusted
 
 
@@ -77,7 +78,7 @@ class Denoised(Carded):
         Root mean square distance of the vertices from the truth that is expected (Stein), in the
         unit of length.
     volume_change
-        Relative; NaN if the mesh has a boundary.
+        Relative; NaN if the mesh has a boundary, or no volume.
     warnings
         Why the result may be worse than predicted; only linear filters were used there.
     """
@@ -222,8 +223,14 @@ def denoise(
         if progress is not None:
             progress(2 * i + 2, 2 * len(components))
     result = mesh.with_vertices(moved) if any(part.sigma for part in parts) else mesh
-    change = result.volume / mesh.volume - 1 if mesh.is_closed else math.nan
-    return Denoised(result, tuple(parts), change)
+    return Denoised(result, tuple(parts), _volume_change(mesh, result))
+
+
+def _volume_change(before: Mesh, after: Mesh) -> float:
+    """Return it relative to that before; NaN where that is none, or only rounding."""
+    if not before.is_closed or abs(before.volume) <= _NO_VOLUME * before.area**1.5:
+        return math.nan
+    return after.volume / before.volume - 1
 
 
 def _choice(

@@ -14,7 +14,7 @@ from beltrami._arrays import Floats, as_function, whole
 from beltrami._progress import Progress
 from beltrami.display.page_bundle import page_html
 from beltrami.display.page_contents import Wanted, page_contents
-from beltrami.errors import BeltramiError, DimensionError, check_name, shown
+from beltrami.errors import BeltramiError, DimensionError, MeshError, check_name, shown
 from beltrami.io.atomic import replacing
 from beltrami.mesh.door import require_mesh
 from beltrami.mesh.geometry import in_space
@@ -28,6 +28,7 @@ _AXES = ("x", "y", "z")
 _WEIGHTS = (*SYMMETRIC_WEIGHTS, "intrinsic_delaunay", "tufted")
 _SEED = 2
 _MOST_MODES = 1024  # layers and weights that every graphics card has room for
+_LEAST, _LARGEST = 1e-15, 1e15  # mean edges, and functions: their squares are single floats
 
 
 @dataclass(frozen=True)
@@ -110,7 +111,8 @@ def page(
     DimensionError, EmptyMeshError, NonFiniteError, DegenerateFaceError, UnreferencedVertexError
         If the mesh or a function is not what a Laplacian needs, or has more than three dimensions.
     UnknownNameError, MeshError, BeltramiError
-        If an option has no such value.
+        If an option has no such value; if the mean edge or a function is below 1e-15 or above 1e15,
+        or an edge or the noise too large for the mean edge.
 
     Notes
     -----
@@ -138,6 +140,7 @@ def page(
             f"a page shows meshes in the plane or in space, not in R^{mesh.dimension}",
             remedy="Choose three coordinates: Mesh(vertices[:, :3], faces).",
         )
+    _require_singles("the mean edge", float(mesh.edge_lengths.mean()))
     if not laplacians:
         raise BeltramiError("a page needs a Laplacian: name one of its weights")
     kinds = tuple(check_name("weights", kind, _WEIGHTS) for kind in laplacians)
@@ -189,5 +192,15 @@ def _given(f: ArrayLike | Mapping[str, ArrayLike] | None, n: int) -> dict[str, F
                 f"the function {name!r} has the shape {column.shape} where ({n},) is needed",
                 remedy="Give each column a name.",
             )
+        _require_singles(f"the function {name!r}", float(np.abs(column).max()))
         checked[str(name)] = column.reshape(n)
     return checked
+
+
+def _require_singles(what: str, size: float) -> None:
+    """Refuse sizes with which the graphics card cannot compute."""
+    if size and not _LEAST <= size <= _LARGEST:
+        raise MeshError(
+            f"{what} is {size:.3g}, where a page needs {_LEAST:g} to {_LARGEST:g}",
+            remedy="Choose another unit.",
+        )

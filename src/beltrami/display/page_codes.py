@@ -19,6 +19,9 @@ from scipy.sparse import coo_array, csr_array
 
 from beltrami._arrays import Floats, Integers
 from beltrami.display.page_order import pair_faces
+from beltrami.errors import MeshError
+
+_MOST_PLANES = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,8 +101,19 @@ class Sections:
     parts: list[bytes] = field(default_factory=list)
 
     def add(self, name: str, residuals: Integers) -> None:
-        """Append a table of residuals, (rows, columns)."""
+        """Append a table of residuals, (rows, columns).
+
+        Raises
+        ------
+        MeshError
+            If there are more than four planes: the page computes with 32 bits.
+        """
         data, planes = planes_of(residuals)
+        if planes > _MOST_PLANES:
+            raise MeshError(
+                f"{name} of a page differ by more than 2^31 steps",
+                remedy="Leave out parts that are far away, or take less noise.",
+            )
         rows, columns = residuals.shape
         self.entries.append({"name": name, "rows": rows, "columns": columns, "planes": planes})
         self.parts.append(data)

@@ -57,19 +57,21 @@ def make_texture(mesh: Mesh, picture: Picture) -> Texture:
     UnknownNameError
         If there is no such pattern; and what ``as_picture`` raises.
     """
-    uv = mesh.corner_uv
-    if uv is None or not np.isfinite(uv).all(axis=2).any():
+    uv = np.full((1, 3, 2), np.nan) if mesh.corner_uv is None else mesh.corner_uv
+    finite = np.asarray(np.isfinite(uv).all(axis=2))
+    if not finite.any():
         raise MeshError(
             "a mesh without texture coordinates takes no texture",
             remedy="Draw parameterize(mesh).textured or atlas(mesh).mesh.",
         )
+    uv = np.where(finite[..., None], uv, np.nan)
     if isinstance(picture, str) and Path(picture).suffix == "":
         check_name("texture", picture, PATTERNS)
-        known = uv[np.isfinite(uv).all(axis=2)]
+        known = uv[finite]
         low, extent = known.min(axis=0), float(np.ptp(known, axis=0).max())
         tile = checkerboard(_TILE, 2)
         return Texture((uv - low) / (extent or 1.0) * (SQUARES / 2), *_halves(tile))
-    return Texture(np.asarray(uv), *_halves(as_picture(picture)))
+    return Texture(uv, *_halves(as_picture(picture)))
 
 
 def checkerboard(size: int = 1024, squares: int = SQUARES) -> Floats:
