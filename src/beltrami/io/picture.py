@@ -9,7 +9,6 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 from PIL import Image as Pillow
-from PIL import UnidentifiedImageError
 
 from beltrami._arrays import Floats, rectangular
 from beltrami.errors import DimensionError, FileFormatError, MeshError
@@ -42,7 +41,9 @@ def as_picture(picture: Picture) -> Floats:
         try:
             with Pillow.open(picture) as file:
                 return np.asarray(file.convert("RGB"), dtype=np.float64) / 255.0
-        except (UnidentifiedImageError, Pillow.DecompressionBombError, SyntaxError) as cause:
+        except Exception as cause:  # Pillow raises anything on a broken file
+            if isinstance(cause, OSError) and cause.errno is not None:
+                raise  # the file is not there, or may not be read
             raise FileFormatError(picture, "expected a picture, such as PNG or JPEG") from cause
     given = rectangular(picture)
     if given.ndim not in (2, 3) or given.size == 0 or (given.ndim == 3 and given.shape[2] != 3):
