@@ -1,8 +1,11 @@
 """The rooms: imports go one way, and importing the package is cheap."""
 
 import ast
+import re
 import subprocess
 import sys
+import tomllib
+from fnmatch import fnmatch
 from pathlib import Path
 
 import pytest
@@ -52,3 +55,16 @@ def test_every_public_name_loads():
 @pytest.mark.parametrize("path", sorted(SOURCE.rglob("*.py")), ids=lambda p: p.name)
 def test_files_are_short(path):
     assert len(path.read_text(encoding="utf-8").splitlines()) <= 300
+
+
+def test_the_source_archive_has_what_the_tests_read():
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    kept = settings["tool"]["hatch"]["build"]["targets"]["sdist"]["include"]
+    read = {
+        name
+        for path in (ROOT / "tests").rglob("*.py")
+        for name in re.findall(r'parents\[\d\] / "([\w.]+)', path.read_text(encoding="utf-8"))
+        if (ROOT / name).exists()
+    }
+    assert {"docs", "examples", "Makefile"} <= read
+    assert not {name for name in read if not any(fnmatch(name, one) for one in kept)}

@@ -82,3 +82,18 @@ def test_the_picture_of_the_readme_is_made_by_the_example(tmp_path):
     kept = example["main"](str(tmp_path / "blob.png"))
     assert 0.6 < kept < 0.75  # smoothing without keep="volume" shrinks
     assert size_of(tmp_path / "blob.png") == size_of(ROOT / "docs/images/blob.png")
+
+
+@pytest.mark.parametrize("name", ["ARCHITECTURE", "CONTRIBUTING", "README", "benchmarks/README"])
+def test_what_the_documents_name_is_there(name):
+    text = (ROOT / f"{name}.md").read_text(encoding="utf-8")
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    targets = set(re.findall(r"^([a-z-]+):", makefile, re.MULTILINE))
+    assert set(re.findall(r"(?:^ {4}|`)make ([a-z-]+)", text, re.MULTILINE)) <= targets
+    for module in re.findall(r"python -m (benchmarks\.\w+)", text):
+        assert (ROOT / f"{module.replace('.', '/')}.py").is_file(), module
+    files = re.findall(r"`([\w./*<>-]+\.(?:py|js|md|toml|csv)|\w[\w/]*/)`", text)
+    homes = [ROOT, ROOT / "src" / "beltrami", *(ROOT / name for name in ("tests", "benchmarks"))]
+    homes += [place for home in homes[1:] for place in home.rglob("*") if place.is_dir()]
+    for file in {file for file in files if "<" not in file}:
+        assert any(True for home in homes for _ in home.glob(file)), file

@@ -6,7 +6,7 @@ import hashlib
 import json
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, TypeAlias
+from typing import Any
 
 from beltrami.batch import memory
 from beltrami.batch.failures import PipelineError
@@ -16,8 +16,6 @@ from beltrami.batch.verbs import VERBS
 from beltrami.errors import BeltramiError, check_name
 
 FORMAT = 1  # of records; another number makes earlier work be done again
-
-Plain: TypeAlias = tuple[tuple[str, tuple[tuple[str, Any], ...]], ...]
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 An integer at a vertex is guessed from those at the vertices before it: the mean, rounded down, of
 a + b - c over the faces (a, b, v) whose neighbour across the side (a, b) has a third vertex c
 before v too (Touma and Gotsman 1998). Functions that vary slowly leave 2 bits for each value.
-Huffman's code alone packs those better, and a hundred times faster, than a search for repetitions;
+Huffman's code alone packs those better, and much faster, than a search for repetitions;
 planes of bytes that are nearly all 0 want runs.
 """
 

@@ -71,7 +71,7 @@ def cheaper_method(shape: Sequence[int], nonzeros: int) -> str:
     """Tell whether q shifts, or three FFTs, cost less: ``"direct"`` or ``"fft"``.
 
     Shifts move q n values, transforms about n log2(n), or more where a length has large prime
-    factors; constants as measured (benchmarks, row ``convolution``). So the kernels of local
+    factors; constants as measured (benchmarks, rows ``convolve-*``). So the kernels of local
     operators (2d + 1 values) are convolved directly on all but small grids, as the chapter says
     (l. 268).
 

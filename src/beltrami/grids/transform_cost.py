@@ -14,7 +14,7 @@ def transform_cost(shape: Sequence[int]) -> float:
     """Return the cost of an FFT for each value, in passes: the sum of the prime factors.
 
     A length whose factors are too large goes by way of a convolution of at least twice the
-    length (L. Bluestein, 1970). Measured, not proven: see the row ``convolution`` of the
+    length (L. Bluestein, 1970). Measured, not proven: see the rows ``convolve-*`` of the
     benchmarks.
 
     Examples

@@ -160,6 +160,7 @@ def write_mesh(
                 "a texture without texture coordinates",
                 remedy="Write parameterize(mesh).textured or atlas(mesh).mesh.",
             )
+        corner_texture(mesh, turns)  # before anything is written
         if suffix == ".obj":
             material = _write_material(Path(path), texture)
     with replacing(path) as whole:

@@ -49,12 +49,6 @@ class Elimination:
         columns = np.diff(self.starts)
         return int((columns * (columns + 1) // 2 + columns * np.diff(self.row_starts)).sum())
 
-    @property
-    def operations(self) -> float:
-        """Multiplications and additions of the factorisation."""
-        a, r = np.diff(self.starts).astype(float), np.diff(self.row_starts).astype(float)
-        return float((a**3 / 3 + a * a * r + a * r * r).sum())
-
 
 def eliminate(indptr: Integers, indices: NDArray[np.int32], dissection: Dissection) -> Elimination:
     """Find the rows of each panel: those of its matrix entries, and those left by its children."""

@@ -20,7 +20,7 @@ from beltrami.spectrum.lanczos import lanczos_filter
 from beltrami.spectrum.recurrence import chebyshev_sums
 
 FILTER_METHODS = ("chebyshev", "exact", "lanczos")
-_LARGEST_DENSE = 4000  # vertices: 130 MB for each of three matrices, and minutes
+_LARGEST_DENSE = 4000  # vertices: three matrices of 128 MB each
 
 
 def filter(  # noqa: A001
