@@ -179,6 +179,26 @@ def test_what_is_no_size_of_memory(text):
         parse_size(text)
 
 
+def test_an_estimate_counts_what_all_steps_before_hold():
+    size = Size(10**6, 2 * 10**6)
+    few, many = (
+        as_pipeline(f"spectrum k={k}, diagnose, descriptors count=2000").estimate(size)
+        for k in (100, 200)
+    )
+    assert few[1] == many[1] == "descriptors"
+    assert many[0] - few[0] == 8 * 10**6 * 100
+
+
+def test_the_center_is_that_of_the_surface():
+    moved = bt.shapes.icosphere(1)
+    mesh = bt.Mesh(3 * moved.vertices + [1, 2, -7], moved.faces)
+    step = as_pipeline("integrate").steps[0]
+    facts = step.verb.run(Scene(mesh), step.options).facts
+    assert np.allclose(facts["centroid"], [1, 2, -7], rtol=0, atol=1e-12)
+    assert np.isclose(facts["area"], mesh.area)
+    assert np.isclose(facts["volume"], mesh.volume)
+
+
 def test_too_large_says_how_much():
     error = TooLargeError("spectrum of 5 vertices", 8 * 10**9, 4 * 10**9)
     assert isinstance(error, MemoryError)

@@ -177,6 +177,22 @@ def test_an_error_of_ours_stops_one_mesh_only(meshes, tmp_path, monkeypatch):
     assert {one.error.kind for one in found.failures} == {"ZeroDivisionError", "FileFormatError"}
 
 
+@pytest.mark.parametrize(
+    "error", [OSError(errno.EIO, "no"), MissingExtraError("x", "batch", "it"), MemoryError()]
+)
+def test_what_circumstances_cause_is_tried_again(meshes, tmp_path, table, monkeypatch, error):
+    def broken(mesh, **options):
+        raise error
+
+    out = tmp_path / "out"
+    with monkeypatch.context() as patch:
+        patch.setattr("beltrami.batch.verbs_of_meshes.repair", broken)
+        run(meshes / "0.ply", out)
+    row = table(out)["0.ply"]
+    assert (row["outcome"], row["error_step"], row["key"]) == ("failed", "repair", None)
+    assert run(meshes / "0.ply", out).state.done == 1
+
+
 def test_ctrl_c_leaves_what_is_done_and_a_later_run_goes_on(meshes, tmp_path, table, manifest):
     out = tmp_path / "out"
 

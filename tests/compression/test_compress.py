@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 
 import beltrami as bt
+from beltrami.compression import choosing
 from beltrami.compression.contents import describe
 from beltrami.errors import (
     BeltramiError,
@@ -97,6 +98,22 @@ def test_smooth_positions_keep_a_bound(max_error):
     for mesh in (bt.shapes.blob(1000), bt.shapes.cube(4)):
         data = check(mesh, max_error=max_error, mode="smooth")
         assert 0.5 * max_error < describe(data).max_error <= max_error * (1 + 1e-9)
+
+
+def test_where_no_step_was_near_the_bound_one_is_taken_that_keeps_it(monkeypatch):
+    """The step for which even the largest error, 1.1 sqrt(d) of it, is below the bound."""
+    steps = []
+    honest = choosing.encode_freely
+
+    def pessimistic(x, near, grid, *rest):
+        steps.append(grid.step)
+        data, worst = honest(x, near, grid, *rest)
+        return data, worst + 1.0
+
+    monkeypatch.setattr(choosing, "encode_freely", pessimistic)
+    check(bt.shapes.blob(500), max_error=0.02, mode="smooth", effort="fast")
+    assert len(steps) == 3
+    assert 0.8 * 0.02 < 1.1 * np.sqrt(3) * steps[-1] < 0.02
 
 
 def test_smooth_surfaces_cost_less_than_noise():

@@ -136,10 +136,12 @@ def test_a_signalling_nan_is_a_number_like_any_other_bad_one():
 @pytest.mark.heavy
 def test_a_hundred_thousand_mutated_files():
     seed = np.random.SeedSequence().entropy
-    print("seed", seed)  # pytest shows it where this fails
-    rng = np.random.default_rng(seed)
     for k in range(100_000):
-        attempt(mutated(rng, FILES[k % len(FILES)]))
+        try:
+            attempt(mutated(np.random.default_rng([seed, k]), FILES[k % len(FILES)]))
+        except Exception as error:
+            error.add_note(f"default_rng([{seed}, {k}])")
+            raise
 
 
 def test_a_small_file_cannot_declare_more_than_is_allowed():

@@ -169,12 +169,22 @@ def test_a_coarse_shape_takes_the_fewest_bytes_and_auto_finds_it():
     assert describe(fine).mode == "grid"
 
 
-@pytest.mark.parametrize("part", [0.05, 0.012, 0.007])
-def test_auto_takes_the_fewest_bytes_of_all_modes(part):
-    error = part * np.ptp(BLOB.vertices)
-    options = {"max_error": error, "effort": "fast", "verify": False}
-    sizes = [len(bt.compress(BLOB, mode=m, **options)) for m in ("grid", "smooth", "spectral")]
-    assert len(bt.compress(BLOB, **options)) == min(sizes)
+@pytest.mark.parametrize(
+    ("mesh", "part", "best"),
+    [
+        (BLOB, 0.05, "spectral"),
+        (BLOB, 0.012, "spectral"),
+        (BLOB, 0.007, "spectral"),
+        (bt.shapes.disk(8), 0.05, "smooth"),
+        (bt.shapes.cube(8), 0.05, "grid"),
+    ],
+)
+def test_auto_takes_the_fewest_bytes_of_all_modes(mesh, part, best):
+    options = {"max_error": part * np.ptp(mesh.vertices), "effort": "fast", "verify": False}
+    modes = ("grid", "smooth", "spectral")
+    sizes = {mode: len(bt.compress(mesh, mode=mode, **options)) for mode in modes}
+    assert min(sizes, key=sizes.get) == best
+    assert len(bt.compress(mesh, **options)) == sizes[best]
 
 
 def test_terms_belong_to_the_spectrum():

@@ -89,3 +89,13 @@ def test_a_vertex_without_a_normal_is_named():
     with pytest.raises(MeshError, match="have no normal") as caught:
         tangent_frames(doubled)
     assert caught.value.vertices.tolist() == [0, 1, 2]
+
+
+@pytest.mark.parametrize(("height", "slope"), [(1e-3, 1.0), (1e-5, 0.0)])
+@pytest.mark.parametrize("unit", [1e-9, 1.0, 1e9])
+def test_a_direction_in_which_the_edges_hardly_extend_has_no_slope(height, slope, unit):
+    mesh = bt.Mesh(unit * np.array([[0.0, 0], [1, 0], [0, height]]), [[0, 1, 2]])
+    x, y = tangent_gradient(mesh, tangent_frames(mesh))
+    f = mesh.vertices.sum(axis=1)
+    assert np.isclose((x @ f)[0], 1, rtol=1e-9)
+    assert np.isclose((y @ f)[0], slope, rtol=1e-9)
