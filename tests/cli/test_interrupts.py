@@ -83,6 +83,17 @@ def test_interrupted_tour(tmp_path):
     assert not [name for name in names if name.startswith(".")]
 
 
+def test_interrupted_tour_of_several_processes(tmp_path):
+    write_mesh(tmp_path / "in.ply", icosphere(3))
+    code = TELLING.format(module="beltrami.cli.playing", name="as_completed")
+    setting = "import beltrami.cli.playing as p; p.LARGE, p._cores = 0, lambda: 2\n"
+    errors, returncode = interrupt(setting + code, ("tour", "in.ply", "-o", "tour"), tmp_path)
+    assert (returncode, errors) == (130, "beltrami: interrupted\n")
+    names = {path.name for path in (tmp_path / "tour").iterdir()}
+    assert "index.html" not in names
+    assert not [name for name in names if name.startswith(".")]
+
+
 def test_an_interrupt_that_python_loses_comes_again():
     lost = types.SimpleNamespace(exc_type=KeyboardInterrupt)
     hear_again(lost)

@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 import time
-import warnings
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from beltrami.cli.console import waiting
-from beltrami.cli.remedies import as_commands
-from beltrami.errors import BeltramiError, EmptyMeshError, check_name
+from beltrami.errors import EmptyMeshError, check_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from beltrami.cli.chapters.chapter import Chapter, Stage
     from beltrami.mesh.mesh import Mesh
 
@@ -48,9 +43,9 @@ def tour(
     with waiting("preparing the mesh"):
         shape, notes = _prepared(mesh)
     output.mkdir(parents=True, exist_ok=True)
+    start = time.perf_counter()
     chapters = _play(Stage(MESH, shape, output, axis, view))
-    total = sum(chapter.seconds or 0 for chapter in chapters)
-    notes.append(f"{len(chapters)} chapters in {total:.0f} seconds.")
+    notes.append(f"{len(chapters)} chapters in {time.perf_counter() - start:.0f} seconds.")
     notes.append(f"The commands on this page run in its folder, on its {MESH}.")
     title = f"A tour of {'the blob' if mesh is None else mesh.name}"
     with replacing(output / "index.html") as file:
@@ -77,41 +72,11 @@ def _prepared(path: Path | None) -> tuple[Mesh, list[str]]:
 
 def _play(stage: Stage) -> list[Chapter]:
     """Run the chapters; one that cannot be run on this mesh says why, and the others go on."""
-    from beltrami.cli.chapters.averaging import averaging
-    from beltrami.cli.chapters.chapter import Chapter
-    from beltrami.cli.chapters.compression import compression
-    from beltrami.cli.chapters.denoising import denoising
-    from beltrami.cli.chapters.files import files
-    from beltrami.cli.chapters.geodesics import geodesics
-    from beltrami.cli.chapters.grid import grid
-    from beltrami.cli.chapters.heat import heat
-    from beltrami.cli.chapters.interactive import interactive
-    from beltrami.cli.chapters.maps import maps
-    from beltrami.cli.chapters.operators import operators
-    from beltrami.cli.chapters.spectrum import spectrum
-    from beltrami.cli.chapters.surface import surface
-    from beltrami.cli.chapters.waves import waves
+    from beltrami.cli.playing import play
 
-    acts: tuple[Callable[[Stage], Chapter], ...] = (
-        interactive, surface, operators, averaging, grid, heat, denoising, waves, spectrum,
-        compression, maps,
-        geodesics, files,
-    )  # fmt: skip
-    played = []
     with waiting("touring") as progress:
-        for done, act in enumerate(acts):
-            progress(done, len(acts))
-            start = time.perf_counter()
-            with warnings.catch_warnings(record=True) as warned:
-                warnings.simplefilter("always")
-                try:
-                    chapter = act(stage)
-                except BeltramiError as error:
-                    title = act.__name__.capitalize()
-                    why = f"Not on this mesh: {as_commands(str(error))}"
-                    chapter = Chapter(title, "", (why,))
-                    typer.echo(f"{title}: {why}", err=True)
-            told = tuple(dict.fromkeys(str(one.message) for one in warned))
-            seconds = time.perf_counter() - start
-            played.append(replace(chapter, seconds=seconds, warnings=told))
-    return played
+        played = play(stage, progress)
+    for chapter, possible in played:
+        if not possible:
+            typer.echo(f"{chapter.title}: {chapter.text[0]}", err=True)
+    return [chapter for chapter, _ in played]

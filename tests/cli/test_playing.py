@@ -1,0 +1,66 @@
+"""Chapters in several processes: the same as one after another, and none waits for another."""
+
+from dataclasses import replace
+
+import pytest
+
+from beltrami.cli import playing
+from beltrami.cli.chapters.chapter import Stage
+from beltrami.errors import BeltramiError
+from beltrami.mesh.shapes import grid, icosphere
+
+
+def stage(folder, mesh=None):
+    folder.mkdir()
+    return Stage("mesh.ply", mesh or icosphere(2), folder, "y", None)
+
+
+def timeless(played):
+    return [(replace(chapter, seconds=None), possible) for chapter, possible in played]
+
+
+def test_two_processes_play_what_one_plays(tmp_path, monkeypatch):
+    monkeypatch.setattr(playing, "_cores", lambda: 2)
+    few = ("geodesics", "files", "surface")
+    monkeypatch.setattr(playing, "CHAPTERS", few)
+    steps = []
+    one = playing.play(stage(tmp_path / "one"), lambda done, total: steps.append((done, total)))
+    assert steps == [(0, 3), (1, 3), (2, 3)]
+    monkeypatch.setattr(playing, "LARGE", 0)
+    two = playing.play(stage(tmp_path / "two"), lambda done, total: steps.append((done, total)))
+    assert steps[3:] == [(1, 3), (2, 3), (3, 3)]
+    assert timeless(two) == timeless(one)
+    assert all(chapter.seconds > 0 for chapter, _ in two)
+    for path in (tmp_path / "one").iterdir():
+        assert (tmp_path / "two" / path.name).read_bytes() == path.read_bytes()
+
+
+def test_each_chapter_has_files_of_its_own(tmp_path):
+    owners = {}
+    for name in playing.CHAPTERS:
+        chapter, possible = playing.play_one(stage(tmp_path / name), name)
+        assert possible
+        for path in (tmp_path / name).iterdir():
+            assert owners.setdefault(path.name, name) == name
+
+
+def test_a_chapter_that_cannot_be_played_says_why(tmp_path, monkeypatch):
+    import beltrami.cli.chapters.files as module
+
+    def refused(_):
+        raise BeltramiError("the disk is full")
+
+    monkeypatch.setattr(module, "files", refused)
+    chapter, possible = playing.play_one(stage(tmp_path / "a", grid(3, 3)), "files")
+    assert not possible
+    assert (chapter.title, chapter.text) == ("Files", ("Not on this mesh: the disk is full",))
+
+
+@pytest.mark.parametrize("name", playing.CHAPTERS)
+def test_the_chapters_are_there(name):
+    module = __import__(f"beltrami.cli.chapters.{name}", fromlist=[name])
+    assert callable(getattr(module, name))
+
+
+def test_the_longest_are_chapters():
+    assert set(playing._LONGEST) < set(playing.CHAPTERS)
