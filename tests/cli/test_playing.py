@@ -38,7 +38,7 @@ def test_two_processes_play_what_one_plays(tmp_path, monkeypatch):
 def test_each_chapter_has_files_of_its_own(tmp_path):
     owners = {}
     for name in playing.CHAPTERS:
-        chapter, possible = playing.play_one(stage(tmp_path / name), name)
+        _, possible = playing.play_one(stage(tmp_path / name), name)
         assert possible
         for path in (tmp_path / name).iterdir():
             assert owners.setdefault(path.name, name) == name

@@ -26,7 +26,11 @@ def interactive(stage: Stage) -> Chapter:
             "drag the time of heat, click where a wave begins, take M terms of the shape, draw a "
             "filter by hand, see the map to the plane. The sums are computed in the browser. With "
             "--noise 0.2 the command takes longer, and adds a noisy and a denoised copy.",
-            *(as_commands(note[0].upper() + note[1:]) for note in written.notes if "noise" not in note),
+            *(
+                as_commands(note[0].upper() + note[1:])
+                for note in written.notes
+                if "noise" not in note
+            ),
         ),
         files=((PAGE, f"{written.size / 1e6:.1f} MB, {modes} modes of each Laplacian"),),
         commands=(f"beltrami page {stage.name} -o {PAGE} -k {modes} --up {stage.up} --noise 0",),
