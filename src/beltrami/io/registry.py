@@ -49,7 +49,12 @@ TEXTURED = (".obj", *extras.TEXTURED)
 _FLOAT32_MAX = float(np.finfo(np.float32).max)
 
 
-def read_mesh(path: str | os.PathLike[str], format: str | None = None) -> Mesh:  # noqa: A002 - the public name
+def read_mesh(
+    path: str | os.PathLike[str],
+    format: str | None = None,  # noqa: A002 - the public name
+    *,
+    max_bytes: int | None = None,
+) -> Mesh:
     r"""Read a triangle mesh from a file.
 
     OBJ, OFF, PLY and STL are read here, checked byte by byte; the extra ``io`` adds GIFTI,
@@ -64,6 +69,9 @@ def read_mesh(path: str | os.PathLike[str], format: str | None = None) -> Mesh: 
     format
         A suffix such as ``".obj"`` where the name of the file does not tell; upper case, or the
         dot left out, make no difference.
+    max_bytes
+        What a compressed file may unpack to; by default 256 MiB, or 100 times its size if that
+        is more, so that a few bytes cannot fill the memory.
 
     Returns
     -------
@@ -77,7 +85,8 @@ def read_mesh(path: str | os.PathLike[str], format: str | None = None) -> Mesh: 
     UnknownNameError
         If the suffix is not known; it lists those that are.
     FileFormatError
-        If the file is not what its format promises; it names the line or the byte.
+        If the file is not what its format promises; it names the line or the byte. Also if it
+        unpacks to more than ``max_bytes``.
     MissingExtraError
         If the format needs a package that is not installed.
 
@@ -94,8 +103,8 @@ def read_mesh(path: str | os.PathLike[str], format: str | None = None) -> Mesh: 
         raise FileFormatError(path, "expected a file, found a directory. Name a file in it")
     suffix = suffix_of(path, format, (*READERS, *extras.READERS))
     if suffix in READERS:
-        return READERS[suffix](load(path))
-    return extras.read(path, suffix)
+        return READERS[suffix](load(path, max_bytes))
+    return extras.read(path, suffix, max_bytes)
 
 
 def write_mesh(
