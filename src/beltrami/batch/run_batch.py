@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from beltrami._arrays import whole
+from beltrami._kinds import checked
 from beltrami._optional import require
 from beltrami.batch.cluster import local_workers, most_memory, on_workers, one_by_one, workers_at
 from beltrami.batch.failures import PipelineError, StoreError, StrictError
@@ -54,6 +55,7 @@ class Batch:
         return f"<Batch: {s.done} of {s.total} meshes done, {s.failed} failed, in {self.out}>"
 
 
+@checked
 def run_batch(
     sources: Sources,
     pipeline: object,

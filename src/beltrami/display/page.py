@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_function, whole
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.display.page_bundle import page_html
 from beltrami.display.page_contents import Wanted, page_contents
@@ -50,6 +51,7 @@ class Page:
     notes: tuple[str, ...]
 
 
+@checked
 def page(
     mesh: Mesh,
     path: str | os.PathLike[str],
@@ -148,7 +150,9 @@ def page(
     if not 0 <= noise < np.inf:
         raise BeltramiError(f"noise is {shown(noise)}, where a finite number >= 0 is needed")
     axis = check_name("axis", up, _AXES)
-    wanted = Wanted(whole("modes", modes, 1, _MOST_MODES), kinds, plane, float(noise), axis, unit)
+    wanted = Wanted(
+        whole("modes", modes, 1, _MOST_MODES), kinds, plane, float(noise), axis, str(unit)
+    )
     functions = _own(mesh, axis) | _given(f, mesh.n_vertices)
     parts = len(kinds) + 4
     done = 0
@@ -160,7 +164,7 @@ def page(
             progress(done, parts)
 
     contents = page_contents(mesh, functions, wanted, tell)
-    title = title or file.stem
+    title = str(title) or file.stem
     header = {"title": title, **contents.header}
     text = page_html(title, header, contents.sections.packed()).encode()
     with replacing(file) as out:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from beltrami._arrays import Floats
+from beltrami._kinds import checked
 from beltrami._optional import require
 from beltrami.errors import FileFormatError, MissingExtraError, check_name
 from beltrami.io.packed_inside import require_room
@@ -21,6 +22,7 @@ from beltrami.io.unpacking import Room, gunzipped, room_of
 _TEXT = (".txt", ".csv", ".dat", ".tsv")
 
 
+@checked
 def read_function(
     path: str | os.PathLike[str], name: str | None = None, *, max_bytes: int | None = None
 ) -> Floats:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_floats, require_finite
+from beltrami._kinds import checked
 from beltrami.errors import (
     DimensionError,
     EmptyMeshError,
@@ -49,6 +50,7 @@ TEXTURED = (".obj", *extras.TEXTURED)
 _FLOAT32_MAX = float(np.finfo(np.float32).max)
 
 
+@checked
 def read_mesh(
     path: str | os.PathLike[str],
     format: str | None = None,  # noqa: A002 - the public name
@@ -107,6 +109,7 @@ def read_mesh(
     return extras.read(path, suffix, max_bytes)
 
 
+@checked
 def write_mesh(
     path: str | os.PathLike[str],
     mesh: Mesh,
@@ -200,7 +203,7 @@ def suffix_of(path: str | os.PathLike[str], form: str | None, known: tuple[str, 
     ('.obj', '.obj')
     """
     if form is not None:
-        return check_name("format", "." + form.lower().lstrip("."), known)
+        return check_name("format", "." + str(form).lower().lstrip("."), known)
     place = Path(os.fspath(path).lower())
     if place.suffix == ".gz":
         place = place.with_suffix("")
