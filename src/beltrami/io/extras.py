@@ -42,8 +42,10 @@ def read(path: str | os.PathLike[str], suffix: str, max_bytes: int | None = None
         room = room_of(place, plain.stat().st_size, max_bytes)
         try:
             vertices, faces, data = READERS[suffix](plain, room)
-        except (FileFormatError, MissingExtraError):
+        except MissingExtraError:
             raise
+        except FileFormatError as error:  # of a copy, perhaps
+            raise FileFormatError(place, error.problem) from error
         except (Exception, SystemExit) as cause:  # the packages raise anything on a broken file
             reason = f"{type(cause).__name__}: {cause}"
             raise FileFormatError(place, f"expected a {suffix} file ({reason})") from cause
@@ -83,13 +85,24 @@ def _read_freesurfer(place: Path, _room: Room) -> Any:
 def _read_meshio(place: Path, room: Room) -> Any:
     meshio = require("meshio", "io", f"reading {place.suffix}")
     require_room(place, place.suffix.lower(), room)
-    found = meshio.read(place)
+    found = _by_meshio(meshio, place)
     blocks = [b.data for b in found.cells if b.type in ("triangle", "quad", "polygon")]
     pieces = [
         fan(np.concatenate(b).astype(np.int64), np.array([len(c) for c in b])) for b in blocks
     ]
     faces = np.concatenate(pieces) if pieces else np.zeros((0, 3), np.int64)
     return found.points, faces, found.point_data
+
+
+def _by_meshio(meshio: Any, place: Path) -> Any:
+    """Read in the first of the formats of this suffix that fits; ``meshio.read`` would print."""
+    reasons = []
+    for name in meshio.extension_to_filetypes[place.suffix.lower()]:
+        try:
+            return getattr(meshio, name).read(str(place))
+        except meshio.ReadError as error:
+            reasons.append(f"{name}: {error}")
+    raise FileFormatError(place, f"expected a {place.suffix} file ({'; '.join(reasons)})")
 
 
 def _read_trimesh(place: Path, _room: Room) -> Any:
