@@ -95,8 +95,8 @@ class Store:
             return
         with self._told():
             incoming = Path(self.root, INCOMING)
-            incoming.mkdir(parents=True, exist_ok=True)
             self._inside(incoming)
+            incoming.mkdir(parents=True, exist_ok=True)
             descriptor = os.open(Path(self.root, ".lock"), os.O_WRONLY | os.O_CREAT, 0o666)
         with open(descriptor, "wb") as lock:
             if not lock_file(lock):
@@ -177,8 +177,8 @@ class Store:
         with self._told():
             if self.is_local:
                 folder = Path(target).parent
+                self._inside(folder)  # before anything is made there
                 folder.mkdir(parents=True, exist_ok=True)
-                self._inside(folder)
                 _flush(path)
                 os.replace(path, target)
             elif self._at_once:
