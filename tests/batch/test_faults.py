@@ -196,6 +196,9 @@ def test_nobody_else_can_talk_to_the_workers_of_this_machine(good, tmp_path):
     with store.claimed(), local_workers(1, 10**9) as workers:
         assert [outcome.outcome for outcome in on_workers(workers, iter([job]))] == ["done"]
         address = workers.client.scheduler_info()["address"]
+        # a worker whose compiled code keeps it silent for minutes is not given up
+        ttl = workers.client.run_on_scheduler(lambda dask_scheduler: dask_scheduler.worker_ttl)
+        assert ttl is None
         assert address.startswith("tls://127.0.0.1:")
         for stranger in (address, address.replace("tls", "tcp")):
             security = distributed.Security.temporary() if stranger == address else None
