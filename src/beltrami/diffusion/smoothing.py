@@ -91,7 +91,7 @@ def smooth(
     if step > 1:
         longest = 2 / laplacian.spectral_bound(mass="degree")
         if step > longest * (1 + 1e-12):
-            raise StepTooLongError(step, longest)
+            raise StepTooLongError(step, longest, "averaging", "Take a shorter one")
     rows = averaging_rows(laplacian, held, columns=values.size // laplacian.n)
     return average(rows, values, np.full(int(steps), float(step)), progress)
 
