@@ -7,6 +7,7 @@ import numbers
 import numpy as np
 
 from beltrami._arrays import Booleans, Integers, read_only, whole
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.errors import MeshError, check_name, shown
 from beltrami.mesh.cut import Cut
@@ -27,6 +28,7 @@ _FILL = 0.35  # of the square, at least: for the size of a texel before charts a
 _EXACT = 2.0**24  # multiples of its inverse in [0, 1] are exact in single precision
 
 
+@checked
 def atlas(
     mesh: Mesh,
     count: int = 1,
