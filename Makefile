@@ -69,7 +69,7 @@ audit: $(VENV)/.installed  ## bill of materials (dist/sbom.json); fails on what 
 	$(BIN)/python -m pip freeze --exclude-editable > dist/installed.txt
 	.venv-audit/bin/pip-audit --strict --no-deps --disable-pip -r dist/installed.txt
 
-FORMATS ?= obj off ply stl btm csv npy npz
+FORMATS ?= obj off ply stl btm csv npy npz gz gii vtu
 SECONDS ?= 60
 fuzz: $(VENV)/.installed  ## readers, led by coverage, with bounds checked; finds stay in tests/fuzz/corpus
 	for format in $(FORMATS); do \

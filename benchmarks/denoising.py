@@ -1,185 +1,204 @@
 """Denoising without a parameter, against peers at the best parameter that knowing the truth finds.
 
-python -m benchmarks.denoising [mesh ...] [--seeds 3]
-python -m benchmarks.denoising --faces 1000000    the time of one large mesh alone
+python -m benchmarks.denoising [mesh ...] [--seeds 3] [--folder kept]   BENCHMARKS-DENOISING.md
+python -m benchmarks.denoising --faces 1000000                          one large mesh, printed
 
 Noise is white, along the normals, of 0.1, 0.2 and 0.3 mean edge lengths; "Fandisk0.3" is a noisy
 mesh with its truth, as published. Errors are the mean angle of the normals of the faces, in
-degrees, and the root mean square distance of the vertices, in mean edge lengths. Meshes that the
-constants of ``denoise`` were chosen on, and meshes that they were not, are told apart.
+degrees, and the root mean square distance of the vertices, in mean edge lengths. With a folder,
+what was measured is kept there and not measured again: a run that was stopped goes on, and several
+may share it.
 """
 
 from __future__ import annotations
 
+from benchmarks.threads import one_thread
+
+if __name__ == "__main__":
+    one_thread()  # before numpy is loaded
+
 import argparse
+import json
 import os
+import resource
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from benchmarks.cases import FOLDER_VARIABLE, plain, subdivided
+from benchmarks.denoising_report import Case, OddCase, written
+from benchmarks.noisy_meshes import (
+    HELD_OUT,
+    ODD,
+    PAIR,
+    TUNED,
+    errors,
+    is_there,
+    noisy,
+    odd_noise,
+    pair,
+    truth_of,
+)
 from benchmarks.packages import package
-from benchmarks.smoothers import peers
+from benchmarks.smoothers import DEFAULT, peers
 
 LEVELS = (0.1, 0.2, 0.3)
-PAIR = "Fandisk0.3"
-TUNED = ("blob", "cube", "spot", "fertility", "fandisk", "sphere", "torus", "camel", "pial",
-         "ellipsoid")  # fmt: skip
-HELD_OUT = ("bumps", "octahedron", "can", "saddle",
-            "beetle", "face", "conte69", "bunny", "armadillo")  # fmt: skip
-FILES = {
-    "spot": "spot_triangulated.obj",
-    "fertility": "fertility.off",
-    "fandisk": "Fandisk0.3/Original.obj",
-    "torus": "torus.obj",
-    "camel": "camel-head.off",
-    "bunny": "bun_zipper.ply",
-    "pial": "pial_left.gii.gz",
-    "armadillo": "armadillo.obj",
-    "beetle": "beetle.obj",
-    "face": "face.obj",
-    "conte69": "conte69_32k_lh.gii",
-}
-SHAPES: dict[str, Callable[[Any], Any]] = {
-    "blob": lambda shapes: shapes.blob(8000),
-    "cube": lambda shapes: shapes.cube(32),
-    "sphere": lambda shapes: shapes.icosphere(5),
-    "ellipsoid": lambda shapes: _stretched(shapes.icosphere(4)),
-    "bumps": lambda shapes: _bumpy(shapes.icosphere(5)),
-    "octahedron": lambda shapes: _cut_in_four(shapes.octahedron(), 5),
-    "can": lambda shapes: shapes.cylinder(90, 40, caps=True),
-    "saddle": lambda shapes: _bent(shapes.grid(60, 60, dimension=3)),
-}
+REPORT = Path(__file__).parents[1] / "BENCHMARKS-DENOISING.md"
+_LARGE, _VERY_LARGE = 30_000, 100_000  # vertices, from which there are two seeds, and one
+_SMALL = 15_000  # vertices, up to which odd noise is tried too
+Facts = dict[str, Any]
 
 
-def _stretched(sphere: Any) -> Any:
-    return sphere.with_vertices(sphere.vertices * [1, 1.7, 0.6])
+def kept(folder: Path | None, name: str, measure: Callable[[], Facts]) -> Facts:
+    """Read what was measured before, or measure it and keep it."""
+    if folder is None:
+        return measure()
+    path = folder / f"{name}.json"
+    if not path.exists():
+        partial = path.with_suffix(".partial")
+        partial.write_text(json.dumps(measure()))
+        partial.replace(path)
+    facts: Facts = json.loads(path.read_text())
+    return facts
 
 
-def _cut_in_four(mesh: Any, times: int) -> Any:
-    arrays = plain(mesh)
-    for _ in range(times):
-        arrays = subdivided(*arrays)
-    return package("beltrami").Mesh(*arrays)
+def of_peers(truth: Any, mesh: Any) -> Facts:
+    """Return the least errors of any peer at any parameter, and of any at its defaults."""
+    tried, plainly = [], []
+    for peer, value, call in peers(mesh):
+        vertices = np.asarray(call(), dtype=np.float64)
+        if np.isfinite(vertices).all():
+            found = (*errors(truth, vertices), f"{peer} {value}")
+            tried.append(found)
+            if value == DEFAULT:
+                plainly.append(found)
+    return {
+        "noisy": errors(truth, mesh.vertices),
+        "angle": [min(tried)[0], min(tried)[2]],
+        "distance": min([one[1], one[2]] for one in tried),
+        "defaults": [min(one[0] for one in plainly), min(one[1] for one in plainly)],
+    }
 
 
-def _bent(grid: Any) -> Any:
-    x, y, _ = grid.vertices.T
-    height = (x - x.mean()) ** 2 - (y - y.mean()) ** 2
-    return grid.with_vertices(np.stack([x, y, height], axis=1))
+def of_ours(truth: Any, mesh: Any) -> Facts:
+    """Return the errors of the blind choice, those of its best single filter, and the CPU time."""
+    start = time.process_time()
+    found = package("beltrami").denoise(mesh)
+    seconds = time.process_time() - start
+    return {
+        "errors": errors(truth, found.mesh.vertices),
+        "own": best_filter(truth, mesh),
+        "seconds": seconds,
+        "sigma": found.sigma / truth.edge_lengths.mean(),
+        "warned": bool(found.warnings),
+    }
 
 
-def _bumpy(sphere: Any) -> Any:
-    x, y, z = 5 * sphere.vertices.T
-    height = np.sin(x + 1) * np.sin(y) + np.cos(y - z)
-    return sphere.with_vertices(sphere.vertices * (1 + 0.06 * height)[:, None])
+def best_filter(truth: Any, mesh: Any, *, linear: bool = False) -> tuple[float, float]:
+    """Return the least errors of the filters that are mixed, each alone, knowing the truth."""
+    candidates = package("beltrami.diffusion.candidates")
+    low = package("beltrami.diffusion.linear_filters")
+    filters = low.LINEAR if linear else (*low.LINEAR, *low.IN_PARTS, *candidates.OF_NORMALS)
+    bench = candidates.Bench.of(mesh)
+    found = [errors(truth, x) for x in candidates.filtered(mesh, bench, filters)]
+    return min(one[0] for one in found), min(one[1] for one in found)
 
 
-def truth_of(name: str, folder: Path) -> Any:
-    bt = package("beltrami")
-    if name in SHAPES:
-        return SHAPES[name](bt.shapes)
-    read = bt.read_mesh(folder / FILES[name])
-    fixed = bt.repair(read, remove_unreferenced=True, remove_degenerate_faces=True).mesh
-    return bt.Mesh(fixed.vertices, fixed.faces)
+def of_odd(truth: Any, mesh: Any) -> Facts:
+    """Return the distances of the blind choice and of the best linear filter."""
+    found = package("beltrami").denoise(mesh)
+    return {
+        "noisy": errors(truth, mesh.vertices)[1],
+        "distance": errors(truth, found.mesh.vertices)[1],
+        "linear": best_filter(truth, mesh, linear=True)[1],
+        "warned": bool(found.warnings),
+    }
 
 
-def noisy(truth: Any, level: float, seed: int) -> Any:
-    sigma = level * truth.edge_lengths.mean()
-    noise = np.random.default_rng([seed, int(1000 * level)]).normal(0, sigma, truth.n_vertices)
-    return truth.with_vertices(truth.vertices + noise[:, None] * truth.vertex_normals)
+def measured(
+    name: str, meshes: Path, folder: Path | None, seeds: int
+) -> tuple[list[Case], list[OddCase]]:
+    """Measure one mesh at all levels, and, if it is small, with odd noise."""
+    if name == PAIR:
+        truth, mesh = pair(meshes)
+        facts = (
+            kept(folder, f"{PAIR}-{one.__name__}", lambda one=one: one(truth, mesh))
+            for one in (of_peers, of_ours)
+        )
+        return [Case(name, 0.3, truth.n_vertices, (tuple(facts),))], []
+    truth = truth_of(name, meshes)
+    n = truth.n_vertices
+    seeds = 1 if n > _VERY_LARGE else min(seeds, 2) if n > _LARGE else seeds
+    cases, odd = [], []
+    for level in LEVELS:
+        runs = []
+        for seed in range(seeds):
+            mesh = noisy(truth, level, seed)
+            facts = (
+                kept(folder, f"{name}-{level}-{seed}-{one.__name__}",
+                     lambda one=one, mesh=mesh: one(truth, mesh))
+                for one in (of_peers, of_ours)
+            )  # fmt: skip
+            runs.append(tuple(facts))
+        cases.append(Case(name, level, n, tuple(runs)))
+    for kind in ODD if n <= _SMALL else ():
+        mesh = odd_noise(truth, kind, 0)
+        facts = kept(folder, f"{name}-{kind}", lambda mesh=mesh: of_odd(truth, mesh))
+        odd.append(OddCase(name, kind, facts))
+    return cases, odd
 
 
-def errors(truth: Any, vertices: Any) -> tuple[float, float]:
-    """Mean angle of the normals in degrees, and distance of the vertices in mean edges."""
-    normals = truth.with_vertices(vertices).face_normals
-    cosine = np.clip(np.einsum("ij,ij->i", normals, truth.face_normals), -1, 1)
-    away = ((vertices - truth.vertices) ** 2).sum(axis=1)
-    angle = float(np.degrees(np.arccos(cosine)).mean())
-    return angle, float(np.sqrt(away.mean()) / truth.edge_lengths.mean())
-
-
-def row(name: str, level: float, truth: Any, meshes: list[Any]) -> tuple[str, Any]:
-    """Measure one mesh and level over the seeds; the line, and the two ratios of each seed."""
-    bt = package("beltrami")
-    ours, ratios, seconds, chosen = [], [], 0.0, ("", "")
-    for mesh in meshes:
-        start = time.process_time()
-        found = bt.denoise(mesh)
-        seconds += (time.process_time() - start) / len(meshes)
-        ours.append(errors(truth, found.mesh.vertices))
-        tried = []
-        for peer, value, call in peers(mesh):
-            vertices = np.asarray(call(), dtype=np.float64)
-            if np.isfinite(vertices).all():
-                tried.append((*errors(truth, vertices), f"{peer} {value}"))
-        by_angle, by_distance = min(tried), min(tried, key=lambda one: one[1])
-        ratios.append((ours[-1][0] / by_angle[0], ours[-1][1] / by_distance[1]))
-        chosen = f"{by_angle[0]:.2f}° {by_angle[2]}", f"{by_distance[1]:.3f} {by_distance[2]}"
-    start_errors = errors(truth, meshes[0].vertices)
-    mean = np.mean(ours, axis=0)
-    spread = np.std(ratios, axis=0) * 1.96 / np.sqrt(len(ratios))
-    ratio = np.mean(ratios, axis=0)
-    text = (
-        f"| {name} {level:g} | {start_errors[0]:.1f}° {start_errors[1]:.2f} | {mean[0]:.2f}° "
-        f"{mean[1]:.3f} | {chosen[0]} | {chosen[1]} | {ratio[0]:.2f} ± {spread[0]:.2f} | "
-        f"{ratio[1]:.2f} ± {spread[1]:.2f} | {seconds:.1f} s |"
-    )
-    return text, ratio
-
-
-def time_of(faces: int) -> None:
-    """Print the CPU time and the errors of a shape of at least so many faces."""
+def time_of(faces: int) -> str:
+    """Tell the time, the memory and the errors of a shape of at least so many faces."""
     bt = package("beltrami")
     arrays = plain(bt.shapes.blob(30_000))
     while len(arrays[1]) < faces:
         arrays = subdivided(*arrays)
     truth = bt.Mesh(*arrays)
     mesh = noisy(truth, 0.2, 0)
-    start = time.process_time()
+    bt.denoise(noisy(bt.shapes.icosphere(3), 0.2, 0))  # compiles
+    cpu, wall = time.process_time(), time.perf_counter()
     found = bt.denoise(mesh)
-    seconds = time.process_time() - start
+    cpu, wall = time.process_time() - cpu, time.perf_counter() - wall
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
     angle, distance = errors(truth, found.mesh.vertices)
-    print(f"{truth.n_faces} faces: {seconds:.1f} s, {angle:.2f}°, {distance:.3f}")
+    return (
+        f"{truth.n_faces:,} faces: {cpu:.1f} s of one core, {wall:.1f} s, peak {peak:.2f} GiB; "
+        f"{angle:.2f}°, {distance:.3f} mean edges"
+    )
 
 
-def main() -> None:
-    """Print the table, mesh by mesh, and the medians."""
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Measure, and write the report."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.denoising", description=__doc__)
     parser.add_argument("meshes", nargs="*", help=f"some of {PAIR}, {TUNED + HELD_OUT}")
     parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--folder", type=Path, help="where what was measured is kept")
+    parser.add_argument("--output", type=Path, default=REPORT)
     parser.add_argument("--faces", type=int, help="time a mesh of so many, and nothing else")
-    asked = parser.parse_args()
+    asked = parser.parse_args(arguments)
     if asked.faces:
-        time_of(asked.faces)
+        print(time_of(asked.faces))
         return
-    folder = Path(os.environ.get(FOLDER_VARIABLE, ""))
-    known = [
-        name for name in (*TUNED, *HELD_OUT) if name in SHAPES or (folder / FILES[name]).exists()
-    ]
-    bt = package("beltrami")
-    print("| mesh, noise | noisy | denoise, blind | best peer by angle | best peer by distance "
-          "| ratio of angles | ratio of distances | CPU |")  # fmt: skip
-    print("|---|---|---|---|---|---|---|---|")
-    if (folder / PAIR).exists() and (not asked.meshes or PAIR in asked.meshes):
-        truth, mesh = (bt.read_mesh(folder / PAIR / f"{one}.obj") for one in ("Original", "Noisy"))
-        print(row(PAIR, 0.3, truth, [mesh])[0], flush=True)
-    for kind, group in (("tuned on", TUNED), ("held out", HELD_OUT)):
-        ratios = []
-        for name in [one for one in group if one in known and one in (asked.meshes or known)]:
-            truth = truth_of(name, folder)
-            for level in LEVELS:
-                meshes = [noisy(truth, level, seed) for seed in range(asked.seeds)]
-                text, ratio = row(name, level, truth, meshes)
-                ratios.append(ratio)
-                print(text, flush=True)
-        if ratios:
-            middle, worst = np.median(ratios, axis=0), np.max(ratios, axis=0)
-            print(f"\n{kind}: angles {middle[0]:.2f} median, {worst[0]:.2f} worst; distances "
-                  f"{middle[1]:.2f} median, {worst[1]:.2f} worst\n", flush=True)  # fmt: skip
+    meshes = Path(os.environ.get(FOLDER_VARIABLE, ""))
+    if asked.folder:
+        asked.folder.mkdir(parents=True, exist_ok=True)
+    cases: list[Case] = []
+    odd: list[OddCase] = []
+    missing = []
+    for name in asked.meshes or (PAIR, *TUNED, *HELD_OUT):
+        if not is_there(name, meshes):
+            missing.append(name)
+            continue
+        print(name, flush=True)
+        found = measured(name, meshes, asked.folder, asked.seeds)
+        cases += found[0]
+        odd += found[1]
+    asked.output.write_text(written(cases, odd, missing))
+    print(f"wrote {asked.output}")
 
 
 if __name__ == "__main__":

@@ -2,10 +2,10 @@
 
 python -m benchmarks.smoothing [mesh ...] [--seeds 3] [--level 0.2]
 
-Meshes and noise are those of ``benchmarks.denoising``. For each filter: the errors at its defaults,
-the least of each at any parameter, found knowing the truth, both with 95 % confidence over the
-seeds ("Fandisk0.3" has one, as published), and the CPU time of all threads of one call with
-defaults, from arrays.
+Meshes and noise are those of ``benchmarks.noisy_meshes``. For each filter: the errors at its
+defaults, the least of each at any parameter, found knowing the truth, both with 95 % confidence
+over the seeds ("Fandisk0.3" has one, as published), and the CPU time of all threads of one call
+with defaults, from arrays.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.cases import FOLDER_VARIABLE
-from benchmarks.denoising import FILES, PAIR, SHAPES, errors, noisy, truth_of
+from benchmarks.noisy_meshes import FILES, PAIR, SHAPES, errors, noisy, truth_of
 from benchmarks.packages import package
 from benchmarks.smoothers import DEFAULT, own, peers
 

@@ -171,14 +171,20 @@ class NotDifferentiableError(SurfaceError):
 
 
 class StepTooLongError(BeltramiError, ValueError):
-    """An explicit time step beyond the bound of stability; ``longest`` is the longest allowed."""
+    """A step beyond the bound of stability; ``longest`` is the longest allowed."""
 
-    def __init__(self, step: float, longest: float) -> None:
+    def __init__(
+        self,
+        step: float,
+        longest: float,
+        scheme: str = "the explicit scheme",
+        remedy: str = "Take more steps, or the implicit scheme, which has no such bound",
+    ) -> None:
         self.step = step
         self.longest = longest
         super().__init__(
-            f"the explicit scheme is unstable with a step of {step:.6g}: the longest allowed is "
-            f"{longest:.6g}. Take more steps, or the implicit scheme, which has no such bound"
+            f"{scheme} is unstable with a step of {step:.6g}: the longest allowed is "
+            f"{longest:.6g}. {remedy}"
         )
 
 

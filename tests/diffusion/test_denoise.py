@@ -5,7 +5,14 @@ import pytest
 
 from beltrami.diffusion.candidates import Bench, OfNormals, along_normals, filtered
 from beltrami.diffusion.denoise import denoise
-from beltrami.diffusion.linear_filters import LINEAR, Linear, low_passed, rows_by_length
+from beltrami.diffusion.linear_filters import (
+    IN_PARTS,
+    LINEAR,
+    Linear,
+    low_passed,
+    rows_by_length,
+    rows_by_normals,
+)
 from beltrami.diffusion.noise import noise_level
 from beltrami.diffusion.patches import components_of, part_of, sample_of
 from beltrami.diffusion.risk import best_mixture, mixture_risk
@@ -172,6 +179,29 @@ class TestCandidates:
         flat = Mesh(np.zeros((3, 3)), [[0, 1, 2]])  # no lengths: equal weights
         assert rows_by_length(flat).data.tolist() == [0.5] * 6
 
+    def test_weights_by_normals_against_the_matrix(self):
+        mesh, _ = noisy(shapes.cube(4), 0.1)
+        normals, lengths = mesh.vertex_normals, mesh.edge_lengths
+        i, j = mesh.edges.T
+        W = np.zeros((mesh.n_vertices, mesh.n_vertices))
+        apart = np.linalg.norm(normals[i] - normals[j], axis=1)
+        W[i, j] = np.exp(-(apart**2) / (2 * 0.3**2)) / lengths
+        W += W.T
+        k, U = np.linalg.eig(np.eye(len(W)) - W / W.sum(axis=1)[:, None])
+        gain = 1 / (1 + (k.real.clip(0) / 0.4) ** 6)
+        expected = ((U * gain) @ np.linalg.solve(U, mesh.vertices)).real
+        one = Linear(0.4, True, 0.3)
+        found = low_passed(rows_by_normals(mesh, 0.3), mesh.vertices, one)
+        assert np.allclose(found, expected, atol=3e-3 * np.ptp(expected))
+        assert not np.allclose(
+            low_passed(rows_by_length(mesh), mesh.vertices, one), expected, atol=0.02
+        )
+        evened = mesh.with_vertices(low_passed(Bench.of(mesh).rows, mesh.vertices, Linear(0.5)))
+        moved = low_passed(rows_by_normals(evened, 0.3), mesh.vertices, one)
+        assert np.allclose(
+            filtered(mesh, Bench.of(mesh), [one])[0], along_normals(mesh, moved), atol=1e-12
+        )
+
     def test_those_of_normals_are_the_methods_of_smooth_mesh(self):
         mesh, _ = noisy(CUBE, 0.2)
         bench = Bench.of(mesh)
@@ -292,6 +322,19 @@ def test_the_same_mesh_gives_the_same_bits_and_the_unit_does_not_matter():
         scaled = denoise(mesh.with_vertices(unit * mesh.vertices))
         assert np.allclose(scaled.mesh.vertices / unit, found.mesh.vertices, atol=1e-3 * sigma)
         assert scaled.sigma == pytest.approx(unit * found.sigma)
+
+
+def test_ridges_are_kept_by_low_passes_that_look_at_normals():
+    mesh, _ = noisy(BLOB, 0.1)
+    bench = Bench.of(mesh)
+    alike, in_parts = (
+        min(rms(mesh.with_vertices(x), BLOB) for x in filtered(mesh, bench, filters))
+        for filters in (LINEAR, IN_PARTS)
+    )
+    assert in_parts < 0.93 * alike
+    found = denoise(mesh)
+    assert rms(found.mesh, BLOB) < in_parts
+    assert sum(weight for name, weight in found.mixture if "by normals" in name) > 0.2
 
 
 class TestNoiseOfOtherKinds:

@@ -15,6 +15,7 @@ from beltrami.diffusion.linear_filters import (
     equal_rows,
     low_passed,
     rows_by_length,
+    rows_by_normals,
 )
 from beltrami.diffusion.normal_filters import filtered_normals
 from beltrami.diffusion.normal_variation import normals_of_small_variation
@@ -115,10 +116,12 @@ def filtered(
     """
     from_here = mesh if start is None else mesh.with_vertices(start)
     rounds = _all_rounds(from_here, bench, [f for f in filters if isinstance(f, OfNormals)])
+    in_parts = _rows_in_parts(from_here, bench, [f for f in filters if isinstance(f, Linear)])
     found = []
     for one in filters:
         if isinstance(one, Linear):
-            rows = bench.rows_by_length if one.by_length else bench.rows
+            alike = bench.rows_by_length if one.by_length else bench.rows
+            rows = in_parts[one.contrast] if one.in_parts else alike
             found.append(along_normals(mesh, low_passed(rows, from_here.vertices, one)))
         elif isinstance(one, OfVariation):
             found.append(_of_variation(from_here, one.fidelity))
@@ -126,6 +129,15 @@ def filtered(
             moved = rounds[one.guided, one.contrast, one.rounds]
             found.append(along_normals(mesh, moved) if one.projected else moved)
     return found
+
+
+def _rows_in_parts(mesh: Mesh, bench: Bench, filters: list[Linear]) -> dict[float, LocalRows]:
+    """Return W̃ of each contrast, by the normals of the evened mesh."""
+    contrasts = {one.contrast for one in filters if one.in_parts}
+    if not contrasts:
+        return {}
+    evened = mesh.with_vertices(low_passed(bench.rows, mesh.vertices, _EVENING))
+    return {contrast: rows_by_normals(evened, contrast) for contrast in contrasts}
 
 
 def _all_rounds(

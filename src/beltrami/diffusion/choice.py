@@ -18,7 +18,7 @@ from beltrami.diffusion.candidates import (
     along_normals,
     filtered,
 )
-from beltrami.diffusion.linear_filters import LINEAR
+from beltrami.diffusion.linear_filters import IN_PARTS, LINEAR
 from beltrami.diffusion.patches import Sample
 from beltrami.diffusion.risk import best_mixture, mixture_risk
 from beltrami.mesh.mesh import Mesh
@@ -138,7 +138,7 @@ def choose(
         for _ in range(min(_MOST_PROBES, math.ceil(_PROBED / n)))
     ]
     others = [mesh.with_vertices(mesh.vertices + probe) for probe in probes]
-    filters: tuple[Filter, ...] = LINEAR if plain else (*LINEAR, *OF_NORMALS)
+    filters: tuple[Filter, ...] = LINEAR if plain else (*LINEAR, *IN_PARTS, *OF_NORMALS)
     here = filtered(mesh, bench, filters)
     there = [filtered(other, bench, filters) for other in others]
     trial = _Trial(mesh, sample.core, probes, (_PROBE * sigma) ** 2)

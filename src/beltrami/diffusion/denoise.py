@@ -9,6 +9,7 @@ import numpy as np
 
 from beltrami._arrays import Integers
 from beltrami._carded import Carded
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.diffusion.candidates import SECOND, Bench
 from beltrami.diffusion.choice import (
@@ -23,6 +24,7 @@ from beltrami.diffusion.noise import NoiseLevel, noise_level
 from beltrami.diffusion.patches import components_of, part_of, sample_of
 from beltrami.diffusion.vertex_update import require_agreeing_normals
 from beltrami.errors import BeltramiError, check_name
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 
 DENOISING_METHODS = ("auto", "linear")
@@ -130,6 +132,7 @@ class Denoised(Carded):
         return f"<Denoised: σ = {self.sigma:.3g}, mostly {main}>"
 
 
+@checked
 def denoise(
     mesh: Mesh,
     method: str = "auto",
@@ -140,12 +143,13 @@ def denoise(
     r"""Remove the noise of a mesh; how much there is, and how, is found from the mesh.
 
     The level of the noise is measured along the normals (``noise_level``), and once more, if the
-    shape is smooth, by what low passes of many strengths remove alike. Then 71 filters are
-    tried: low passes, bilateral and guided filters of the normals, and normals of small total
-    variation, of many strengths; and mixed with those weights that make Stein's unbiased estimate
-    of the error least. The result is filtered once more, by normals, if that lowers the estimate.
-    The displacements of low passes are along the normals, so that little shrinks or slides; the
-    estimate counts what the other filters move sideways as error.
+    shape is smooth, by what low passes of many strengths remove alike. Then 95 filters are
+    tried: low passes, of which some look less across ridges and creases, bilateral and guided
+    filters of the normals, and normals of small total variation, of many strengths; and mixed
+    with those weights that make Stein's unbiased estimate of the error least. The result is
+    filtered once more, by normals, if that lowers the estimate. The displacements of low passes
+    are along the normals, so that little shrinks or slides; the estimate counts what the other
+    filters move sideways as error.
 
     Chapter items: P15, P42, P43, P45.
 
@@ -206,7 +210,7 @@ def denoise(
     check_name("method of denoising", method, DENOISING_METHODS)
     if noise is not None and not (math.isfinite(noise) and noise >= 0):
         raise BeltramiError(f"the noise must be finite and >= 0, not {noise}")
-    require_agreeing_normals(mesh)
+    require_agreeing_normals(require_mesh(mesh, "denoise"))
     moved = np.array(mesh.vertices)
     components = components_of(mesh, _OWN, _PARTS)
     size = max(_SAMPLE // len(components), _LEAST_SAMPLE)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -18,9 +19,11 @@ from beltrami.solvers.locality import LocalRows, local_rows
 
 _TAIL = 1e-3  # of the gain, that the cut series may leave out
 _DEGREE = 500  # at most
-_ORDERS = {False: 10, True: 4}  # p, with equal weights and with weights by lengths
 _CUTS = np.geomspace(2, 0.004, 16)
+_CUTS_IN_PARTS = np.geomspace(2, 0.01, 8)
+_CONTRASTS = (0.15, 0.3, 0.5)
 _SHORTEST = 1e-3  # mean lengths: edges below it weigh no more
+_LEAST = 1e-12  # of the weight of an edge, that a crease leaves
 
 
 @dataclass(frozen=True)
@@ -28,22 +31,37 @@ class Linear:
     """The gain 1/(1 + (k/cut)^p) of the frequencies 0 <= k <= 2 of Id - W̃.
 
     W̃ averages over the neighbours, with equal weights, p = 10, or, ``by_length``, with weights
-    1/length, p = 4. So sharp a low pass spares what is below the cut; mixtures make others.
+    1/length, p = 4. With a ``contrast`` s these are times exp(-|n_i - n_j|²/2s²), p = 6, n the
+    normals of the evened mesh: what is across a crease has no say, and along a ridge there is more
+    smoothing than over it. So sharp a low pass spares what is below the cut; mixtures make others.
     """
 
     cut: float
     by_length: bool = False
+    contrast: float = math.inf
 
     def gain(self, k: Floats) -> Floats:
         """Return the gain at the frequencies k."""
-        return np.asarray(1 / (1 + (np.maximum(k, 0) / self.cut) ** _ORDERS[self.by_length]))
+        order = 6 if self.in_parts else 4 if self.by_length else 10
+        return np.asarray(1 / (1 + (np.maximum(k, 0) / self.cut) ** order))
+
+    @property
+    def in_parts(self) -> bool:
+        """Whether the normals matter."""
+        return self.contrast < math.inf
 
     def __str__(self) -> str:
-        weights = ", weights by length" if self.by_length else ""
+        if self.in_parts:
+            weights = f", weights by length and by normals, contrast {self.contrast:g}"
+        else:
+            weights = ", weights by length" if self.by_length else ""
         return f"linear, frequencies below {self.cut:.2g}{weights}"
 
 
 LINEAR = tuple(Linear(float(cut), by_length) for by_length in (False, True) for cut in _CUTS)
+IN_PARTS = tuple(
+    Linear(float(cut), True, contrast) for contrast in _CONTRASTS for cut in _CUTS_IN_PARTS
+)
 
 
 def low_passed(rows: LocalRows, x: Floats, one: Linear) -> Floats:
@@ -71,8 +89,22 @@ def equal_rows(mesh: Mesh) -> LocalRows:
 
 def rows_by_length(mesh: Mesh) -> LocalRows:
     """W̃ with the weights 1/length: what is near has more to say."""
+    return _rows(mesh, _by_length(mesh))
+
+
+def rows_by_normals(mesh: Mesh, contrast: float) -> LocalRows:
+    """W̃ with the weights exp(-|n_i - n_j|²/2s²)/length, s the contrast of the normals."""
+    normals, (i, j) = mesh.vertex_normals, mesh.edges.T
+    apart = ((normals[i] - normals[j]) ** 2).sum(axis=1)
+    return _rows(mesh, _by_length(mesh) * np.maximum(np.exp(-0.5 * apart / contrast**2), _LEAST))
+
+
+def _by_length(mesh: Mesh) -> Floats:
     lengths = mesh.edge_lengths
     floor = _SHORTEST * float(lengths.mean()) if len(lengths) else 0.0
-    weights = 1 / np.maximum(lengths, floor) if floor > 0 else np.ones(len(lengths))
+    return np.asarray(1 / np.maximum(lengths, floor)) if floor > 0 else np.ones(len(lengths))
+
+
+def _rows(mesh: Mesh, weights: Floats) -> LocalRows:
     W = symmetric_matrix(mesh.edges, weights, mesh.n_vertices)
     return local_rows(W.indptr, W.indices, shares_of(W), np.diff(W.indptr) == 0)

@@ -40,5 +40,5 @@ def taubin_steps(step: float, pass_band: float, rounds: int) -> Floats:
     half = pass_band * limit / 2
     longest = math.sqrt(half**2 + limit) - half
     if step > longest * (1 + 1e-12):
-        raise StepTooLongError(step, longest)
+        raise StepTooLongError(step, longest, "Taubin's filter", "Take a shorter one")
     return np.tile([step, step / (pass_band * step - 1)], rounds)

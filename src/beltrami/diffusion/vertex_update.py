@@ -38,8 +38,11 @@ def fit_to_normals(
     """
     around = topology.vertex_faces
     x, y = np.array(vertices, np.float64), np.empty_like(vertices)
+    planes = np.empty((topology.n_faces, 6))  # normals and centroids side by side
+    planes[:, :3] = normals
     for _ in range(rounds):
-        _update(topology.faces, around.indptr, around.indices, normals, held, x, y)
+        _centre(topology.faces, x, planes)
+        _update(around.indptr, around.indices, planes, held, x, y)
         x, y = y, x
     return x
 
@@ -73,21 +76,30 @@ def require_agreeing_normals(mesh: Mesh) -> None:
 
 
 @kernel
-def _update(faces: Any, around: Any, members: Any, normals: Any, held: Any, x: Any, y: Any) -> None:
+def _centre(faces: Any, x: Any, planes: Any) -> None:
+    """Write the centroids behind the normals."""
+    for j in range(faces.shape[0]):
+        f, g, h = faces[j, 0], faces[j, 1], faces[j, 2]
+        planes[j, 3] = (x[f, 0] + x[g, 0] + x[h, 0]) / 3
+        planes[j, 4] = (x[f, 1] + x[g, 1] + x[h, 1]) / 3
+        planes[j, 5] = (x[f, 2] + x[g, 2] + x[h, 2]) / 3
+
+
+@kernel
+def _update(around: Any, members: Any, planes: Any, held: Any, x: Any, y: Any) -> None:
     """Write one round from x to y."""
     for i in range(x.shape[0]):
         a, b, c, count = 0.0, 0.0, 0.0, 0
         if not held[i]:
             for q in range(around[i], around[i + 1]):
                 j = members[q]
-                n0, n1, n2 = normals[j, 0], normals[j, 1], normals[j, 2]
+                n0, n1, n2 = planes[j, 0], planes[j, 1], planes[j, 2]
                 if n0 == 0 and n1 == 0 and n2 == 0:
                     continue
-                f, g, h = faces[j, 0], faces[j, 1], faces[j, 2]
                 away = (
-                    n0 * ((x[f, 0] + x[g, 0] + x[h, 0]) / 3 - x[i, 0])
-                    + n1 * ((x[f, 1] + x[g, 1] + x[h, 1]) / 3 - x[i, 1])
-                    + n2 * ((x[f, 2] + x[g, 2] + x[h, 2]) / 3 - x[i, 2])
+                    n0 * (planes[j, 3] - x[i, 0])
+                    + n1 * (planes[j, 4] - x[i, 1])
+                    + n2 * (planes[j, 5] - x[i, 2])
                 )
                 a += n0 * away
                 b += n1 * away

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_function, whole
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.display.page_bundle import page_html
 from beltrami.display.page_contents import Wanted, page_contents
@@ -54,6 +55,7 @@ class Page:
     notes: tuple[str, ...]
 
 
+@checked
 def page(
     mesh: Mesh,
     path: str | os.PathLike[str],
@@ -167,7 +169,7 @@ def page(
         plane,
         float(noise),
         axis,
-        unit,
+        str(unit),
         texture is not None,
         None if texture is None or is_pattern(texture) else page_picture(texture),
     )
@@ -182,7 +184,7 @@ def page(
             progress(done, parts)
 
     contents = page_contents(mesh, functions, wanted, tell)
-    title = title or file.stem
+    title = str(title) or file.stem
     header = {"title": title, **contents.header}
     text = page_html(title, header, contents.sections.packed()).encode()
     with replacing(file) as out:

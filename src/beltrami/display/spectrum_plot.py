@@ -9,20 +9,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, Integers, as_function
+from beltrami._arrays import Floats, Integers, as_function, whole
+from beltrami._kinds import checked
 from beltrami._optional import require
 from beltrami.display.images import check_suffix, write_image
 from beltrami.display.srgb import Image
-from beltrami.errors import BeltramiError
+from beltrami.errors import BeltramiError, MeshError, shown
 from beltrami.spectrum.basis import FourierBasis
 
 _BANDS_PER_OCTAVE = 2  # of λ, over which the lines take root mean squares
 _DPI = 100
+_SMALLEST, _LARGEST = 200, 20_000  # pixels
 _COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00")
 _FEW = 3  # coefficients below which a mean says nothing
 _FLOOR = 1e-18  # of the largest coefficient: what is below is drawn there
 
 
+@checked
 def plot_spectrum(
     basis: FourierBasis,
     functions: Mapping[str, ArrayLike],
@@ -119,12 +122,20 @@ def _magnitudes(basis: FourierBasis, f: Floats) -> Floats:
     return np.asarray(np.linalg.norm(coefficients, axis=1))
 
 
+def _pixels(size: tuple[int, int]) -> tuple[int, int]:
+    """Return width and height, with room for the letters on the axes."""
+    try:
+        width, height = size
+    except (TypeError, ValueError) as cause:
+        raise MeshError(f"size is {shown(size)} where (width, height) is needed") from cause
+    return whole("width", width, _SMALLEST, _LARGEST), whole("height", height, _SMALLEST, _LARGEST)
+
+
 def _draw(eigenvalues: Floats, spectra: Mapping[str, Floats], size: tuple[int, int]) -> Image:
     figure_of: Any = require("matplotlib.figure", "plot", "plots of spectra")
     agg: Any = require("matplotlib.backends.backend_agg", "plot", "plots of spectra")
-    figure = figure_of.Figure(
-        figsize=(size[0] / _DPI, size[1] / _DPI), dpi=_DPI, layout="constrained"
-    )
+    width, height = _pixels(size)
+    figure = figure_of.Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI, layout="constrained")
     canvas = agg.FigureCanvasAgg(figure)
     axes = figure.add_subplot()
     highest = max(float(values.max()) for values in spectra.values())

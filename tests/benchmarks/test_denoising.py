@@ -1,0 +1,83 @@
+"""The benchmark of denoising: what is kept is not measured again, and the goals are judged."""
+
+import json
+
+import numpy as np
+import pytest
+from benchmarks.denoising import best_filter, kept, main, measured
+from benchmarks.denoising_report import Case, OddCase, goals, interval, told, written
+from benchmarks.noisy_meshes import CREASED, HELD_OUT, ODD, TUNED, errors, noisy, odd_noise
+
+import beltrami as bt
+from benchmarks import denoising
+
+
+def facts(ours, peer, own=(1.0, 1.0), warned=False):
+    theirs = {"noisy": (9.0, 0.3), "angle": [peer[0], "a"], "distance": [peer[1], "b"],
+              "defaults": [9.0, 1.0]}  # fmt: skip
+    return theirs, {"errors": ours, "own": own, "seconds": 1.0, "sigma": 0.1, "warned": warned}
+
+
+def test_no_mesh_is_tuned_on_and_held_out():
+    assert not set(TUNED) & set(HELD_OUT)
+    assert set(CREASED) <= {*TUNED, *HELD_OUT}
+
+
+def test_ratios_are_of_each_seed_and_their_interval_is_students():
+    case = Case("blob", 0.2, 9, (facts((2, 0.3), (4, 0.5)), facts((3, 0.2), (4, 0.5))))
+    assert case.ratios[:, :2].tolist() == pytest.approx(np.array([[0.5, 0.6], [0.75, 0.4]]))
+    assert interval(case.ratios[:, 1]) == "0.50 ± 1.27"  # 12.71 * 0.1414 / 1.414
+    assert interval([0.5]) == "0.50"
+
+
+def test_goals_are_judged_for_each_group():
+    assert told([0.6, 0.7, 0.81], (0.7, 0.8)) == (
+        "median 0.70 (<= 0.70: met), worst 0.81 (<= 0.80: **missed**)"
+    )
+    blob = Case("blob", 0.2, 9, (facts((2, 0.3), (4, 0.5)),))
+    can = Case("can", 0.2, 9, (facts((6, 0.45), (4, 0.5)),))
+    odd = [OddCase("can", "strong", {"distance": 2.0, "linear": 1.0, "warned": False})]
+    lines = goals([[blob], [can]], odd, []).splitlines()
+    assert "0.60" in lines[2]
+    assert "0.90 (<= 0.80: **missed**)" in lines[2]
+    assert lines[3].endswith("not measured |")  # can is not organic
+    assert "said 0 of 1; median 2.00 (<= 1.00: **missed**)" in lines[-1]
+
+
+def test_what_is_kept_is_not_measured_again(tmp_path, monkeypatch):
+    assert kept(tmp_path, "one", lambda: {"a": 1}) == {"a": 1}
+    assert kept(tmp_path, "one", lambda: {"a": 2}) == {"a": 1}
+    assert kept(None, "one", lambda: {"a": 2}) == {"a": 2}
+    assert json.loads((tmp_path / "one.json").read_text()) == {"a": 1}
+    monkeypatch.setattr(denoising, "of_peers", lambda truth, mesh: facts((2, 1), (4, 2))[0])
+    denoising.of_peers.__name__ = "of_peers"
+    monkeypatch.setattr(denoising, "of_ours", lambda truth, mesh: facts((2, 1), (4, 2))[1])
+    denoising.of_ours.__name__ = "of_ours"
+    monkeypatch.setattr(denoising, "of_odd", lambda truth, mesh: {
+        "noisy": 1.0, "distance": 0.2, "linear": 0.1, "warned": True})  # fmt: skip
+    cases, odd = measured("ellipsoid", tmp_path, tmp_path, 2)
+    assert [len(case.runs) for case in cases] == [2, 2, 2]
+    assert [one.kind for one in odd] == list(ODD)
+    assert len(list(tmp_path.glob("ellipsoid-*.json"))) == 3 * 2 * 2 + 3
+    target = tmp_path / "report.md"
+    main(["ellipsoid", "no-such-mesh", "--folder", str(tmp_path), "--output", str(target)])
+    text = target.read_text()
+    assert "Not there: no-such-mesh." in text
+    assert "| ellipsoid | strong |" in text
+    assert text.count("| ellipsoid 0.") == 3
+    assert text == written(*measured("ellipsoid", tmp_path, tmp_path, 3), ["no-such-mesh"])
+
+
+def test_errors_and_the_noise_that_makes_them():
+    truth = bt.shapes.icosphere(3)
+    edge = truth.edge_lengths.mean()
+    assert errors(truth, truth.vertices * (1 + edge))[1] == pytest.approx(1, rel=1e-3)
+    assert errors(truth, truth.vertices)[0] < 1e-4
+    assert errors(truth, noisy(truth, 0.2, 0).vertices)[1] == pytest.approx(0.2, rel=0.1)
+    levels = {kind: errors(truth, odd_noise(truth, kind, 0).vertices)[1] for kind in ODD}
+    assert levels["impulses"] == pytest.approx(np.sqrt(0.1), rel=0.3)
+    assert levels["strong"] == pytest.approx(0.7, rel=0.1)
+    assert levels["correlated"] == pytest.approx(0.3, rel=0.1)
+    linear, free = (best_filter(truth, noisy(truth, 0.2, 0), linear=one) for one in (True, False))
+    assert free[0] <= linear[0] < 8
+    assert free[1] <= linear[1] < 0.08
