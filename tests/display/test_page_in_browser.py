@@ -506,6 +506,12 @@ def test_a_picture_on_the_map_that_is_made(browser, shape, tmp_path):
         visit.changes_by(lambda: visit.tab.select_option("#plane-pattern", "checks"), 0.02)
         assert visit.tab.is_visible("#plane-count")
         visit.tab.select_option("#plane-shown", "none")
+        for pattern in ("checks", "none"):  # clay, light and dark
+            visit.tab.select_option("#plane-pattern", pattern)
+            visit.wait()
+            seen = visit.picture()[:, half:][rows, columns]
+            hue = seen / seen.max(axis=1, keepdims=True)
+            assert np.abs(np.median(hue, axis=0) - [1, 0.9, 0.81]).max() < 0.03
         visit.changes_by(lambda: visit.tab.select_option("#plane-pattern", "picture"), 0.02)
         np.testing.assert_array_equal(visit.picture(), plain)
 
