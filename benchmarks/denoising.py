@@ -124,8 +124,17 @@ def measured(
     folder: Path | None,
     seeds: int,
     levels: Sequence[float] = LEVELS,
+    *,
+    more: bool = True,
 ) -> tuple[list[Case], list[OddCase]]:
-    """Measure one mesh at some levels, and, if it is small, with odd noise."""
+    """Measure one mesh at some levels, and, if it is small, with odd noise.
+
+    Without ``more`` only what the folder has is told.
+    """
+
+    def wanted(*names: str) -> bool:
+        return more or (folder is not None and all((folder / f"{x}.json").exists() for x in names))
+
     if name == PAIR:
         truth, mesh = pair(meshes)
         facts = (
@@ -140,15 +149,21 @@ def measured(
     for level in levels:
         runs = []
         for seed in range(seeds):
+            key = f"{name}-{level}-{seed}"
+            if not wanted(f"{key}-of_peers", f"{key}-of_ours"):
+                continue
             mesh = noisy(truth, level, seed)
             facts = (
-                kept(folder, f"{name}-{level}-{seed}-{one.__name__}",
+                kept(folder, f"{key}-{one.__name__}",
                      lambda one=one, mesh=mesh: one(truth, mesh))
                 for one in (of_peers, of_ours)
             )  # fmt: skip
             runs.append(tuple(facts))
-        cases.append(Case(name, level, n, tuple(runs)))
+        if runs:
+            cases.append(Case(name, level, n, tuple(runs)))
     for kind in ODD if n <= _SMALL else ():
+        if not wanted(f"{name}-{kind}"):
+            continue
         mesh = odd_noise(truth, kind, 0)
         facts = kept(folder, f"{name}-{kind}", lambda mesh=mesh: of_odd(truth, mesh))
         odd.append(OddCase(name, kind, facts))
@@ -180,6 +195,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--seeds", type=int, default=3)
     parser.add_argument("--levels", type=float, nargs="+", default=LEVELS)
     parser.add_argument("--folder", type=Path, help="where what was measured is kept")
+    parser.add_argument("--no-more", action="store_true", help="tell what the folder has")
     parser.add_argument("--output", type=Path, default=REPORT)
     parser.add_argument("--faces", type=int, help="time a mesh of so many, and nothing else")
     asked = parser.parse_args(arguments)
@@ -197,7 +213,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
             missing.append(name)
             continue
         print(name, flush=True)
-        found = measured(name, meshes, asked.folder, asked.seeds, asked.levels)
+        found = measured(
+            name, meshes, asked.folder, asked.seeds, asked.levels, more=not asked.no_more
+        )
         cases += found[0]
         odd += found[1]
     asked.output.write_text(written(cases, odd, missing))

@@ -40,10 +40,10 @@ def filtered_normals(
     later = later[: _later(*rings, starts, later)].copy()
     near = np.empty(len(later))
     _weigh(starts, later, centres, -0.5 / sigma**2 if sigma > 0 else 0.0, near)
+    state = np.empty((len(normals), 9))
     while True:
         guides = guide_normals(mesh.topology, rings, normals, areas) if guided else normals
-        state = np.zeros((len(normals), 9))
-        state[:, :3], state[:, 3:6] = guides, areas[:, None] * normals
+        state[:, :3], state[:, 3:6], state[:, 6:] = guides, areas[:, None] * normals, 0
         filtered = np.empty_like(normals)
         _filter(starts, later, near, -1 / contrast**2, state, normals, filtered)
         normals = filtered
