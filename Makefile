@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 
-.PHONY: tour test test-heavy test-browser test-neighbours docs docs-outputs docs-map lint bench bench-large audit fuzz clean
+.PHONY: tour test test-heavy test-browser test-firefox test-neighbours docs docs-outputs docs-map lint bench bench-large audit fuzz clean
 
 $(VENV)/.installed: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -33,6 +33,9 @@ $(VENV)/.browser: $(VENV)/.installed
 
 test-browser: $(VENV)/.browser  ## the pages in a real Chromium, and their modules in node
 	$(BIN)/python -m pytest -m browser
+
+test-firefox: $(VENV)/.browser  ## the pages in a real Firefox, on a screen of Xvfb
+	$(BIN)/python -m pytest -m firefox
 
 test-neighbours:  ## cards in IPython, meshes there and back through pyvista, open3d and polyscope: half a gigabyte
 	$(PYTHON) -m venv .venv-neighbours
@@ -66,7 +69,7 @@ audit: $(VENV)/.installed  ## bill of materials (dist/sbom.json); fails on what 
 	$(BIN)/python -m pip freeze --exclude-editable > dist/installed.txt
 	.venv-audit/bin/pip-audit --strict --no-deps --disable-pip -r dist/installed.txt
 
-FORMATS ?= obj off ply stl btm csv npy npz
+FORMATS ?= obj off ply stl btm csv npy npz gz gii vtu
 SECONDS ?= 60
 fuzz: $(VENV)/.installed  ## readers, led by coverage, with bounds checked; finds stay in tests/fuzz/corpus
 	for format in $(FORMATS); do \

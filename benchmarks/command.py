@@ -61,7 +61,7 @@ def run(asked: argparse.Namespace, folder: Path, target: Path | None) -> list[Ta
             if table.problem:
                 tell(f"  {table.problem}")
             tables.append(table)
-            keep(folder, tables)
+            keep(folder, table)
             if target is not None:
                 target.write_text(written(tables))
     return tables

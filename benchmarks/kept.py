@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -16,32 +15,30 @@ NAME = "measured.json"
 FACTS = [field.name for field in fields(Measured) if field.name != "contender"]
 
 
-def keep(folder: Path, tables: Sequence[Table]) -> None:
-    """Write the tables, all but what the rows themselves know."""
-    stored = [
-        {
-            "row": table.row.name,
-            "case": table.case,
-            "n_vertices": table.n_vertices,
-            "n_faces": table.n_faces,
-            "measured": [
-                {"name": one.contender.name} | {fact: getattr(one, fact) for fact in FACTS}
-                for one in table.measured
-            ],
-        }
-        for table in tables
-        if not table.problem
-    ]
+def keep(folder: Path, table: Table) -> None:
+    """Add a table to what is kept, all but what the row itself knows; it replaces an older one."""
+    if table.problem:
+        return
+    name = (table.row.name, table.case)
+    others = [one for one in _stored(folder) if (one["row"], one["case"]) != name]
+    one = {
+        "row": table.row.name,
+        "case": table.case,
+        "n_vertices": table.n_vertices,
+        "n_faces": table.n_faces,
+        "measured": [
+            {"name": one.contender.name} | {fact: getattr(one, fact) for fact in FACTS}
+            for one in table.measured
+        ],
+    }
     partial = folder / f"{NAME}.partial"
-    partial.write_text(json.dumps(stored, indent=1))
+    partial.write_text(json.dumps([*others, one], indent=1))
     partial.replace(folder / NAME)
 
 
 def kept(folder: Path, row: Row, case: Case) -> Table | None:
     """Return the table of a row that was measured before, or None."""
-    path = folder / NAME
-    stored: list[dict[str, Any]] = json.loads(path.read_text()) if path.exists() else []
-    for one in stored:
+    for one in _stored(folder):
         if (one["row"], one["case"]) == (row.name, case.name):
             named = {contender.name: contender for contender in row.contenders(case)}
             measured = tuple(
@@ -53,3 +50,8 @@ def kept(folder: Path, row: Row, case: Case) -> Table | None:
             )
             return Table(row, case.name, one["n_vertices"], one["n_faces"], measured)
     return None
+
+
+def _stored(folder: Path) -> list[dict[str, Any]]:
+    path = folder / NAME
+    return json.loads(path.read_text()) if path.exists() else []

@@ -1,9 +1,11 @@
 """Maps of disks to the plane, beside libigl, PyMeshLab and xatlas: valid, distorted, how long.
 
-python -m benchmarks.mapping_suite [disk ...] [--largest 12000] [--details] [--large SIZE ...]
+python -m benchmarks.mapping_suite [disk ...] [--largest 50000] [--slow 12000] [--details]
+python -m benchmarks.mapping_suite --large SIZE ...
 
 Disks are natural ones, surfaces cut to disks, spheres less one triangle, and closed tubes less
-one triangle, longer and longer; every method gets the same vertices and faces. Valid is what our
+one triangle, longer and longer; every method gets the same vertices and faces. Slow peers (SLIM
+and xatlas) get those of 12,000 vertices at most, or as many as ``--slow`` says. Valid is what our
 exact certificate calls a bijection (mirrored charts are turned back first), whoever made it.
 Distortion is the symmetric Dirichlet energy at the best scale, 1 for an isometry. Seconds are CPU
 time. SLIM starts from our map with a fixed boundary, because it cannot start from a fold. An atlas
@@ -21,13 +23,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.disks import disk_of, suite
+from benchmarks.disks import GROUPS, suite
 from benchmarks.packages import package
+from benchmarks.surfaces import disk_of, less_one
 
-GROUPS = ("natural", "cut", "one triangle", "tube")
 FIXED_GOALS = {"natural": 1.8, "cut": 3.0, "one triangle": 10.0}
 SECONDS_GOALS = {50_000: 3.0, 200_000: 15.0}
 SLIM_GOAL, SLIM_STEPS = 1.1, 20
+SLOW = 12_000
+SLOW_PEERS = (f"libigl slim({SLIM_STEPS})", "xatlas")
 OURS = ("auto", "free", "tutte", "least_squares_conformal", "spectral_conformal")
 
 Array = NDArray[Any]
@@ -41,6 +45,9 @@ class Outcome:
     energy: float
     seconds: float
     note: str = ""
+
+
+Found = dict[tuple[str, str], dict[str, Outcome]]  # by group and method, then by disk
 
 
 def judged(mesh: Any, call: Callable[[], Array]) -> Outcome:
@@ -153,66 +160,97 @@ def _xatlas(V: Array, F: Array) -> Outcome:
     return Outcome(one.valid, one.energy, seconds, note)
 
 
-def report(found: dict[tuple[str, str], list[Outcome]], group: str) -> Iterator[str]:
+def report(found: Found, group: str) -> Iterator[str]:
     """Yield the table of a group, then what it says of the goals."""
     yield f"\n{group}: valid, median and largest symmetric Dirichlet energy of the valid, CPU\n"
     yield "| method | valid | median | largest | seconds |"
     yield "|---|---|---|---|---|"
     for (of, method), outcomes in found.items():
         if of == group:
-            energies = [one.energy for one in outcomes if one.valid] or [np.inf]
+            energies = _energies(outcomes)
             yield (
-                f"| {method} | {sum(one.valid for one in outcomes)} of {len(outcomes)} | "
-                f"{np.median(energies):.3g} | {max(energies):.3g} | "
-                f"{sum(one.seconds for one in outcomes):.1f} |"
+                f"| {method} | {len(energies)} of {len(outcomes)} | {_median(energies)} | "
+                f"{max(energies, default=np.inf):.3g} | "
+                f"{sum(one.seconds for one in outcomes.values()):.1f} |"
             )
     fixed, free = found[group, "beltrami auto"], found[group, "beltrami free"]
-    slim = found[group, f"libigl slim({SLIM_STEPS})"]
-    valid = all(one.valid for one in fixed + free)
+    valid = all(one.valid for one in (*fixed.values(), *free.values()))
     yield f"\ngoal, every map a certified bijection: {'met' if valid else 'MISSED'}"
     if group in FIXED_GOALS:
-        median = np.median([one.energy for one in fixed])
-        yield f"goal, fixed boundary, median <= {FIXED_GOALS[group]}: {median:.3g}"
-    pairs = zip(free, slim, strict=True)
-    ratios = [one.energy / other.energy for one, other in pairs if np.isfinite(other.energy)]
+        median = _median([one.energy for one in fixed.values()])
+        yield f"goal, fixed boundary, median <= {FIXED_GOALS[group]}: {median}"
+    slim = found.get((group, f"libigl slim({SLIM_STEPS})"), {})
+    ratios = [
+        free[disk].energy / other.energy
+        for disk, other in slim.items()
+        if np.isfinite(other.energy)
+    ]
     if ratios:
         yield (
-            f"goal, free boundary, <= {SLIM_GOAL} x SLIM({SLIM_STEPS}), which may overlap: "
-            f"{np.median(ratios):.3f} median, {max(ratios):.3f} largest"
+            f"goal, free boundary, <= {SLIM_GOAL} x SLIM({SLIM_STEPS}), which may overlap, on "
+            f"{len(ratios)} disks: {np.median(ratios):.3f} median, {max(ratios):.3f} largest"
         )
 
 
-def large(size: int) -> str:
-    """Map a blob less one triangle with the default method; return a line."""
+def summary(found: Found) -> Iterator[str]:
+    """Yield one table of all groups but the tubes: valid maps, and the median of each group."""
+    groups = [group for group in FIXED_GOALS if (group, "beltrami auto") in found]
+    yield f"\nall: valid maps, then median energy of the valid: {' / '.join(groups)}\n"
+    yield "| method | valid | median energy |"
+    yield "|---|---|---|"
+    for method in dict.fromkeys(name for _, name in found):
+        outcomes = [found.get((group, method), {}) for group in groups]
+        energies = [_energies(those) for those in outcomes]
+        yield (
+            f"| {method} | {sum(map(len, energies))} of {sum(map(len, outcomes))} | "
+            f"{' / '.join(map(_median, energies))} |"
+        )
+
+
+def _energies(outcomes: dict[str, Outcome]) -> list[float]:
+    return [one.energy for one in outcomes.values() if one.valid]
+
+
+def _median(energies: list[float]) -> str:
+    return f"{np.median(energies):.3g}" if energies else "-"
+
+
+def large(size: int) -> Iterator[str]:
+    """Map a blob, cut to a disk and less one triangle, with the default method; yield lines."""
     bt = package("beltrami")
     bt.parameterize(bt.shapes.blob(1500))  # compile
-    mesh = disk_of(bt.shapes.blob(size))
-    outcome = judged(mesh, lambda: bt.parameterize(mesh, cut=False).uv)
+    mesh = bt.shapes.blob(size)
     goal = f", goal {SECONDS_GOALS[size]:g} s" if size in SECONDS_GOALS else ""
-    verdict = "a bijection" if outcome.valid else "NO bijection"
-    return (
-        f"{mesh.n_vertices} vertices: {verdict}, energy {outcome.energy:.3g}, "
-        f"{outcome.seconds:.1f} s of CPU{goal}"
-    )
+    for kind, disk in (("cut", disk_of(mesh)), ("one triangle", less_one(mesh))):
+        outcome = judged(disk, lambda disk=disk: bt.parameterize(disk, cut=False).uv)
+        verdict = "a bijection" if outcome.valid else "NO bijection"
+        yield (
+            f"{kind}, {disk.n_vertices} vertices: {verdict}, energy {outcome.energy:.3g}, "
+            f"{outcome.seconds:.1f} s of CPU{goal}"
+        )
 
 
 def main() -> None:
     """Print the tables."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.mapping_suite", description=__doc__)
     parser.add_argument("disks", nargs="*", help="names of disks; all by default")
-    parser.add_argument("--largest", type=int, default=12_000, help="vertices of a disk, at most")
+    parser.add_argument("--largest", type=int, default=50_000, help="vertices of a disk, at most")
+    parser.add_argument("--slow", type=int, default=SLOW, help="likewise, for SLIM and xatlas")
     parser.add_argument("--details", action="store_true", help="print every map")
     parser.add_argument("--large", type=int, nargs="*", default=(), help="time such blobs instead")
     asked = parser.parse_args()
     for size in asked.large:
-        print(large(size), flush=True)
+        for line in large(size):
+            print(line, flush=True)
     if asked.large:
         return
-    found: dict[tuple[str, str], list[Outcome]] = {}
+    found: Found = {}
     for group, name, mesh in suite(asked.largest, asked.disks):
         for method, call in methods(mesh):
+            if method in SLOW_PEERS and mesh.n_vertices > asked.slow:
+                continue
             one = call()
-            found.setdefault((group, method), []).append(one)
+            found.setdefault((group, method), {})[name] = one
             if asked.details:
                 print(
                     f"{group}, {name}, {mesh.n_vertices} vertices, {method}: "
@@ -223,6 +261,7 @@ def main() -> None:
     for group in GROUPS:
         if any(of == group for of, _ in found):
             print("\n".join(report(found, group)), flush=True)
+    print("\n".join(summary(found)))
 
 
 if __name__ == "__main__":

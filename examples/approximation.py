@@ -53,16 +53,17 @@ def approximations(mesh, terms=TERMS):
     return files, meshes, [float(np.sqrt((one**2).mean()) / diagonal) for one in away]
 
 
-def draw_approximations(files, meshes, errors, path):
+def draw_approximations(mesh, files, meshes, errors, path):
     """Draw figure 3.9: the meshes, with the bytes and the errors."""
-    names = [f"{m} terms" for m in TERMS] + ["all"]
+    names = [f"{m} terms" for m in TERMS] + ["all terms"]
     captions = [
         f"{name}: {len(data)} bytes, error {error:.1e}"
         for name, data, error in zip(names, files, errors, strict=True)
     ]
     return bt.render(
-        meshes, None, path,
-        caption=captions, up="z", view=(25, 20), zoom=1.0, size=(360, 240), columns=len(meshes),
+        [mesh, *meshes], None, path, caption=[f"the mesh: {mesh.n_vertices} vertices", *captions],
+        up="z", view=(25, 20), zoom=2.05, focus=(-0.06, -0.05, 0.06), camera="common",
+        size=(520, 250), columns=3,
     )  # fmt: skip
 
 
@@ -71,7 +72,7 @@ def main(folder, n_vertices=1900):
     place, mesh = Path(folder), bt.shapes.blob(n_vertices)
     few = spectra(mesh, place / "spectra.png")
     found = approximations(mesh)
-    draw_approximations(*found, place / "approximations.png")
+    draw_approximations(mesh, *found, place / "approximations.png")
     return few, [len(data) for data in found[0]], found[2]
 
 

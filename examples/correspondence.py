@@ -28,7 +28,7 @@ def main(path: str, n_vertices: int = 1500) -> tuple[float, float]:
     start = bt.functional_map(source, target, landmarks=_landmarks(mesh, other, truth), k=30)
     fine = bt.zoomout(start)
 
-    colours = 0.5 + 0.4 * np.sin(6 * mesh.vertices + mesh.vertex_normals)
+    colours = 0.62 + 0.32 * np.sin(6 * mesh.vertices + mesh.vertex_normals)
     bt.render(
         [mesh, copy, copy],
         [colours, colours[start.point_map], colours[fine.point_map]],
@@ -36,9 +36,9 @@ def main(path: str, n_vertices: int = 1500) -> tuple[float, float]:
         caption=["a creature", "bent: colours by 20 noisy landmarks", "and refined by ZoomOut"],
         up="z",
         view=(25, 20),
-        size=(620, 300),
-        zoom=1.95,
-        columns=1,
+        size=(520, 250),
+        zoom=1.9,
+        columns=3,
     )
     return tuple(_error(mesh, found.point_map, truth) for found in (start, fine))
 

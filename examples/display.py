@@ -26,7 +26,7 @@ def display(mesh, path, **view):
     Chapter items: F3.1.
     """
     near = {"zoom": 5.0, "focus": front(mesh)} | view
-    far = {"zoom": 1.25} | view
+    far = {"zoom": 1.15} | view
     panels = [
         bt.render(mesh, size=SIZE, caption="a mesh", **far),
         bt.render(

@@ -19,8 +19,8 @@ def eigenfunctions(mesh, path, **view):
     basis = bt.fourier_basis(bt.laplacian(mesh), max(MODES) + 1)
     bt.render(
         mesh, [basis.eigenvectors[:, i] for i in MODES], path,
-        caption=[f"mode {i}" for i in MODES], size=(330, 250), columns=4,
-        colormap="diverging", colorbar=False, **view,
+        caption=[f"mode {i}" for i in MODES], columns=4,
+        colormap="diverging", colorbar=False, **({"size": (330, 250)} | view),
     )  # fmt: skip
     return {i: bt.nodal_domains(mesh, basis.eigenvectors[:, i]).count for i in MODES}
 
@@ -31,7 +31,15 @@ def main(folder):
     sphere, creature = bt.shapes.icosphere(5), bt.shapes.blob(12_000)
     return (
         eigenfunctions(sphere, place / "modes_sphere.png"),
-        eigenfunctions(creature, place / "modes_creature.png", up="z", view=(25, 20), zoom=1.25),
+        eigenfunctions(
+            creature,
+            place / "modes_creature.png",
+            up="z",
+            view=(25, 20),
+            zoom=1.95,
+            focus=(-0.06, -0.05, 0.06),
+            size=(400, 200),
+        ),
     )
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from matplotlib import get_data_path
 from PIL import Image, ImageDraw
 
 import beltrami as bt
@@ -44,8 +45,8 @@ class Canvas:
         self.ink.text((self.size[0] / 2, 20 * FINE), title, INK, self.font(17), "mm")
 
     def font(self, size):
-        """Load the font that pillow brings."""
-        return load_font(None, FINE * size)
+        """Load the font that matplotlib brings, which has Greek letters and indices."""
+        return load_font(Path(get_data_path(), "fonts", "ttf", "DejaVuSans.ttf"), FINE * size)
 
     def place(self, points):
         """Pixels of points of the plane."""
@@ -129,7 +130,7 @@ def draw_ring(mesh: bt.Mesh, j: int, path: Path) -> tuple[dict[int, float], dict
             canvas.line(x[edge])
     left.line(x[[0, j]], INK, 3.5)
     angles = {}
-    names = zip(pair, ("alpha", "beta"), ("k1", "k2"), (BLUE, ORANGE), strict=True)
+    names = zip(pair, ("α", "β"), ("k₁", "k₂"), (BLUE, ORANGE), strict=True)
     for (_, k, angle), name, corner, color in names:
         toward = np.array([x[0] - x[k], x[j] - x[k]])
         draw_angle(left, x[k], toward, f"{name}\n{np.degrees(angle):.1f}°", color)
@@ -140,12 +141,12 @@ def draw_ring(mesh: bt.Mesh, j: int, path: Path) -> tuple[dict[int, float], dict
     left.label(1.1 * x[j], "j")
     W = bt.edge_weights(mesh, "cotangent").toarray()
     a, b = angles.values()
-    left.foot(f"w_ij = (cot alpha + cot beta) / 2 = {(1 / np.tan(a) + 1 / np.tan(b)) / 2:.3f}")
+    left.foot(f"wᵢⱼ = (cot α + cot β) / 2 = {(1 / np.tan(a) + 1 / np.tan(b)) / 2:.3f}")
     weights = {int(k): float(W[0, k]) for k in mesh.ring(0)}
     for k, w in weights.items():
         color = BLUE if w >= 0 else RED
         right.line(x[[0, k]], color, 1 + 6 * abs(w))
-        right.label(0.6 * x[k], f"{w:.3f}", color)
+        right.label(0.6 * x[k], f"{w:.3f}".replace("-", "−"), color)
     right.foot("Negative where the two angles add to more than 180°")
     for canvas in (left, right):
         canvas.dot(x[0])
@@ -224,9 +225,9 @@ def draw_cells(mesh: bt.Mesh, i: int, j: int, path: Path) -> dict[str, np.ndarra
     camera = fit_camera(mesh)
     (e,) = np.flatnonzero((mesh.edges == sorted((i, j))).all(axis=1))
     drawn = {
-        "vertex": ("E_i: the points nearest to a vertex", "A_i", vertex_cells(mesh), i),
-        "incenter": ("E_e: the points nearest to an edge", "A_e", edge_cells(mesh, "incenter"), e),
-        "circumcenter": ("The cells of theorem 3", "A_e", edge_cells(mesh, "circumcenter"), e),
+        "vertex": ("Eᵢ: the points nearest to a vertex", "Aᵢ", vertex_cells(mesh), i),
+        "incenter": ("Eₑ: the points nearest to an edge", "Aₑ", edge_cells(mesh, "incenter"), e),
+        "circumcenter": ("The cells of theorem 3", "Aₑ", edge_cells(mesh, "circumcenter"), e),
     }
     canvases, areas = [], {}
     for name, (title, symbol, cells, marked) in drawn.items():
@@ -238,8 +239,8 @@ def draw_cells(mesh: bt.Mesh, i: int, j: int, path: Path) -> dict[str, np.ndarra
         ink_cells(canvas, mesh, cells, centers(mesh, kind))
         for v in (i,) if name == "vertex" else (i, j):
             canvas.dot(mesh.vertices[v], INK, 5)
-        canvas.foot(f"{symbol} = {areas[name][marked]:.4f}, dots: the {kind}s c_f")
-        canvas.foot(f"sum over area of the mesh = {areas[name].sum() / mesh.area:.6f}", row=1)
+        canvas.foot(f"{symbol} = {areas[name][marked]:.4f}, dots: the {kind}s")
+        canvas.foot(f"all of them / area of the mesh = {areas[name].sum() / mesh.area:.6f}", row=1)
         canvases.append(canvas)
     side_by_side(canvases, path)
     return areas

@@ -10,7 +10,7 @@ import numpy as np
 
 import beltrami as bt
 
-TIMES = (0.0, 0.15, 0.4, 0.7)  # beside the root of the area
+TIMES = (0.0, 0.1, 0.2, 0.4)  # beside the root of the area
 
 
 def swing(mesh, vertices, heights):
@@ -44,8 +44,8 @@ def draw(mesh, frames, path, **view):
     """Draw the frames side by side, each with its own colours, symmetric around zero."""
     names = [f"t = {time * mesh.area**0.5:.2f}" for time in TIMES]
     return bt.render(
-        mesh, frames, path, caption=names, size=(320, 260), colormap="diverging",
-        level_set=None, colorbar=False, **view,
+        mesh, frames, path, caption=names, colormap="diverging",
+        level_set=None, colorbar=False, **({"size": (320, 260)} | view),
     )  # fmt: skip
 
 
@@ -54,7 +54,9 @@ def main(folder):
     place = Path(folder)
     sphere, creature = bt.shapes.icosphere(5), bt.shapes.blob(12_000)
     strays = []
-    beside = {"up": "z", "view": (25, 20), "zoom": 1.2}
+    beside = {
+        "up": "z", "view": (25, 20), "zoom": 1.85, "focus": (-0.06, -0.05, 0.06), "size": (460, 245)
+    }  # fmt: skip
     for name, mesh, directions, view in (
         ("sphere", sphere, [(0.3, 0.4, 1), (0.8, -0.2, 0.5)], {}),
         ("creature", creature, [(-1, 0, 0), (0.2, 0, 1)], beside),

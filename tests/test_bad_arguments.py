@@ -1,6 +1,6 @@
 """Numbers and arrays that are no good, to all that takes one: a ``BeltramiError``, or a result.
 
-Numbers have the right type: Python's own TypeError tells of others. They go from 1e-100 to 1e100.
+Numbers go from 1e-100 to 1e100. What is no number, or no array, is in ``test_wrong_kinds``.
 """
 
 import re

@@ -79,8 +79,10 @@ def test_the_rooms_are_those_of_the_plan():
 
 def test_the_picture_of_the_readme_is_made_by_the_example(tmp_path):
     example = runpy.run_path(str(ROOT / "examples/readme_picture.py"))
-    kept = example["main"](str(tmp_path / "blob.png"))
-    assert 0.6 < kept < 0.75  # smoothing without keep="volume" shrinks
+    nearer, sound = example["main"](str(tmp_path / "blob.png"), 1500)
+    assert nearer > 1.5
+    assert sound
+    assert (ROOT / "docs/images/blob.png").stat().st_size < 300_000
     assert size_of(tmp_path / "blob.png") == size_of(ROOT / "docs/images/blob.png")
 
 

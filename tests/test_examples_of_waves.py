@@ -21,10 +21,10 @@ def waves():
 def test_the_figure(waves, tmp_path):
     strays = waves["main"](tmp_path)
     assert max(strays) < 1e-12
-    for name in ("sphere", "creature"):
+    for name, width in (("sphere", 320), ("creature", 460)):
         with Image.open(tmp_path / f"wave_{name}.png") as picture:
             pixels = np.asarray(picture.convert("RGB"), dtype=int)
-        assert pixels.shape[1] == 4 * 320
+        assert pixels.shape[1] == 4 * width
         red, blue = pixels[..., 0], pixels[..., 2]
         for panel in np.split(red - blue, 4, axis=1)[:3]:  # then it is on the other side
             assert panel.max() > 25  # a crest ...

@@ -152,6 +152,37 @@ def test_a_mesh_that_kills_every_worker_fails_and_stops_nobody(
     assert "2 times" in row["error"]
 
 
+def pids(cluster):
+    from distributed import Client
+
+    with Client(cluster.scheduler_address) as client:
+        client.wait_for_workers(2)
+        return set(client.run(os.getpid).values())
+
+
+def test_a_mesh_that_hangs_fails_at_its_limit_and_ends_one_worker_once(
+    cluster, good, pipe, tmp_path, table
+):
+    """Nobody writes into the pipe; the others are known from before."""
+    out, address = tmp_path / "out", cluster.scheduler_address
+    run_batch(good, STEPS, out, workers=0)
+    before = pids(cluster)
+    done = run_batch([*good, pipe], STEPS, out, scheduler=address, time_limit="3s")
+    after = pids(cluster)
+    assert (done.state.done, done.state.failed) == (4, 1)
+    row = table(out)["z.ply"]
+    assert (row["error_kind"], row["error_step"]) == ("TimeLimitError", "reading")
+    assert (row["outcome"], row["key"]) == ("failed", None)
+    assert list((out / "incoming").iterdir()) == []
+    assert len(before & after) == 1  # it was not tried a second time
+    write_mesh(tmp_path / "whole.ply", torus(9, 9))
+    content = (tmp_path / "whole.ply").read_bytes()
+    _, thread = in_thread(lambda: pipe.write_bytes(content))
+    again = run_batch([*good, pipe], STEPS, out, scheduler=address)
+    thread.join(LONG)
+    assert (again.state.done, again.state.reused) == (5, 4)
+
+
 def test_nobody_else_can_talk_to_the_workers_of_this_machine(good, tmp_path):
     import distributed
 
@@ -165,6 +196,9 @@ def test_nobody_else_can_talk_to_the_workers_of_this_machine(good, tmp_path):
     with store.claimed(), local_workers(1, 10**9) as workers:
         assert [outcome.outcome for outcome in on_workers(workers, iter([job]))] == ["done"]
         address = workers.client.scheduler_info()["address"]
+        # a worker whose compiled code keeps it silent for minutes is not given up
+        ttl = workers.client.run_on_scheduler(lambda dask_scheduler: dask_scheduler.worker_ttl)
+        assert ttl is None
         assert address.startswith("tls://127.0.0.1:")
         for stranger in (address, address.replace("tls", "tcp")):
             security = distributed.Security.temporary() if stranger == address else None

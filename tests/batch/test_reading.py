@@ -55,8 +55,8 @@ class _Unpacker:
 
     handed = 0
 
-    def __init__(self, **options):
-        self._real = zlib.decompressobj(**options)
+    def __init__(self, *options):
+        self._real = zlib.decompressobj(*options)
 
     def __getattr__(self, name):
         return getattr(self._real, name)
@@ -67,14 +67,14 @@ class _Unpacker:
 
 
 def test_gzip_of_many_blocks_is_handed_over_about_once(tmp_path, monkeypatch):
-    monkeypatch.setattr("beltrami.batch.reading._BLOCK", 1000)
+    monkeypatch.setattr("beltrami.io.unpacking._BLOCK", 1000)
     bits = np.random.default_rng(1).integers(0, 4, 50_000, np.uint8).tobytes()
     packed = b"".join(
         gzip.compress(bits[i : i + 7000]) + b"\0" * 2500 for i in range(0, 50_000, 7000)
     )
     given = Input("a.ply.gz", ".ply", True, "", len(packed), np.frombuffer(packed, np.uint8))
     fake = SimpleNamespace(decompressobj=_Unpacker, error=zlib.error)
-    monkeypatch.setattr("beltrami.batch.reading.zlib", fake)
+    monkeypatch.setattr("beltrami.io.unpacking.zlib", fake)
     assert _unpacked(given.content, given, None).tobytes() == bits
     assert len(packed) / 2 < _Unpacker.handed < 5 * len(packed)
     with pytest.raises(FileFormatError, match="whole gzip file"):
@@ -97,6 +97,17 @@ def test_a_bomb_is_not_unpacked(tmp_path):
     assert path.stat().st_size < 100_000
     with pytest.raises(TooLargeError, match=r"reading .* MB of \.ply"):
         read(path, BASE + 40_000_000)
+
+
+def test_a_bomb_in_an_archive_is_not_unpacked(tmp_path, monkeypatch):
+    monkeypatch.setattr("beltrami.io.unpacking.FREE", 1 << 20)
+    write_mesh(tmp_path / "mesh.off", MESH)
+    with zipfile.ZipFile(tmp_path / "all.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("bomb.off", bytes(4 << 20))
+        archive.write(tmp_path / "mesh.off", "mesh.off")
+    with pytest.raises(FileFormatError, match=r"bomb\.off.* found more: it may be a bomb"):
+        read(f"zip://bomb.off::{tmp_path / 'all.zip'}")
+    assert read(f"zip://mesh.off::{tmp_path / 'all.zip'}").n_faces == MESH.n_faces
 
 
 def test_a_file_that_is_too_large_is_not_read(tmp_path):

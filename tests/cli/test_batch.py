@@ -47,6 +47,8 @@ def test_for_machines(beltrami, folder, tmp_path):
         (["--do", "repiar"], "step 1 of the pipeline: unknown verb 'repiar'"),
         (["--do", "missing.toml"], "missing.toml: No such file or directory"),
         (["--do", "diagnose", "--memory", "much"], "memory is a size such as 4GB"),
+        (["--do", "diagnose", "--time-limit", "soon"], "a time limit is a time such as 10min"),
+        (["--do", "diagnose", "--time-limit", "9s"], "a time limit stops the worker that is late"),
         (["--do", "diagnose", "--redo", "some"], "unknown redo 'some'"),
         (["--do", "diagnose", "--strict"], "bad.off: reading: "),
     ],

@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from PIL import Image
 
 from beltrami.io.registry import read_mesh, write_mesh
 from beltrami.mesh.mesh import Mesh
@@ -23,9 +24,27 @@ def test_a_page_is_written(beltrami, sphere, tmp_path):
     assert text.count('"kind":') == 1
 
 
+def test_a_texture_from_a_file_and_a_pattern(beltrami, sphere, tmp_path):
+    write_picture(tmp_path / "map.jpg")
+    for texture, told in ((tmp_path / "map.jpg", '"kind":"image/png"'), ("checkerboard", "null")):
+        done = beltrami(
+            "page", sphere, "-o", tmp_path / "p.html", "-k", 4, "--noise", 0, "--texture", texture
+        )
+        assert done.exit_code == 0, done.stderr
+        text = (tmp_path / "p.html").read_text("utf-8")
+        assert '"textured":true' in text
+        assert f'"picture":{{{told}' in text or f'"picture":{told}' in text
+
+
+def write_picture(path):
+    Image.new("RGB", (8, 6), "teal").save(path)
+
+
 @pytest.mark.parametrize(
     ("arguments", "code", "text"),
     [
+        (("--texture", "gone.png"), 1, "gone.png"),
+        (("--texture", "checkerboard", "--no-plane"), 1, "texture coordinates"),
         (("--data-name", "x"), 2, "--data"),
         (("--up", "w"), 1, "'x', 'y', 'z'"),
         (("--weights", "cotan"), 1, "cotangent"),

@@ -60,6 +60,29 @@ def test_json(beltrami, ring, tmp_path):
     assert told["area"] == found.distortion.mean_area
 
 
+def test_glb_holds_what_is_certified_in_single_precision(beltrami, ring, tmp_path):
+    pytest.importorskip("trimesh")
+    out = tmp_path / "out.glb"
+    done = beltrami("parameterize", ring, "-o", out, "--json")
+    assert done.exit_code == 0, done.stderr
+    assert json.loads(done.stdout)["bijective_as_written"] is True
+    found = parameterize(read_mesh(ring)).textured
+    back = read_mesh(out)
+    np.testing.assert_allclose(back.corner_uv, found.corner_uv, atol=2e-7)
+
+
+def test_what_folds_only_when_rounded_is_told(beltrami, tmp_path):
+    pytest.importorskip("trimesh")
+    closed = cylinder(12, 60, height=30, caps=True)
+    write_mesh(tmp_path / "tube.obj", Mesh(closed.vertices, closed.faces[1:]))
+    words = ("parameterize", tmp_path / "tube.obj", "--method", "tutte", "--no-cut")
+    for out, rounded in (("out.obj", False), ("out.glb", True)):
+        done = beltrami(*words, "-o", tmp_path / out)
+        assert done.exit_code == 0, done.stderr
+        assert "certificate: a bijection" in done.stdout
+        assert ("rounded to the 32 bits of GLB it is none" in done.stderr) == rounded
+
+
 def test_folds_are_an_error_unless_allowed(beltrami, tmp_path):
     path, out = tmp_path / "wild.obj", tmp_path / "out.obj"
     write_mesh(path, flipped(1, 40, 10))
@@ -99,7 +122,8 @@ def test_cut(beltrami, ring, tmp_path):
 @pytest.mark.parametrize(
     ("words", "text"),
     [
-        (("-o", "out.ply"), "texture coordinates"),
+        (("-o", "out.ply"), "format for texture coordinates '.ply': choose one of '.obj', '.glb'"),
+        (("-o", "out.gltf"), "texture coordinates '.gltf': choose one of '.obj', '.glb'"),
         (("-o", "out.obj", "--boundary", "triangle"), "boundary curve"),
         (("-o", "out.obj", "--boundary", "2"), "2 sides"),
         (("-o", "out.obj", "--boundary", "square"), "bulge"),

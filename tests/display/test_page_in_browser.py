@@ -11,7 +11,7 @@ from PIL import Image
 from beltrami.diffusion.heat import heat
 from beltrami.display.page import page as write_page
 from beltrami.mesh.mesh import Mesh
-from beltrami.mesh.shapes import blob, icosphere
+from beltrami.mesh.shapes import blob, grid, icosphere
 from beltrami.operators.laplacian import laplacian
 from beltrami.spectrum.fourier_basis import fourier_basis
 from browsers import FLAGS, WEBGL, chromium
@@ -462,13 +462,110 @@ def test_the_map_to_the_plane(visit, shape):
     rows, columns = np.nonzero(disk)
     assert disk.sum() / (np.ptp(rows) * np.ptp(columns)) == pytest.approx(np.pi / 4, rel=0.05)
     visit.changes_by(lambda: visit.slide("plane-count", 60), 0.02)
-    visit.changes_by(lambda: visit.tab.uncheck("#plane-checks"), 0.02)
+    assert visit.tab.locator("#plane-pattern option").all_text_contents() == [
+        "checkerboard",
+        "none",
+    ]
+    visit.changes_by(lambda: visit.tab.select_option("#plane-pattern", "none"), 0.02)
     visit.changes_by(lambda: visit.tab.select_option("#plane-shown", "area"), 0.02)
     visit.changes_by(lambda: visit.tab.select_option("#plane-shown", "none"), 0.02)
     visit.changes_by(lambda: visit.slide("plane-unfold", 1), 0.02)
     picture = visit.picture()
     unfolded = np.abs(picture[:, :half] - 255).max(axis=2) > 20
     assert unfolded.sum() > 0.5 * disk.sum()
+
+
+QUARTERS = np.zeros((64, 64, 3))
+QUARTERS[:32, :32] = 0.9, 0.1, 0.1  # the upper left one is red
+QUARTERS[:32, 32:] = 0.1, 0.8, 0.1
+QUARTERS[32:, :32] = 0.1, 0.1, 0.9
+QUARTERS[32:, 32:] = 0.9, 0.9, 0.1
+
+
+def test_a_picture_on_the_map_that_is_made(browser, shape, tmp_path):
+    write_page(shape, tmp_path / "p.html", modes=4, noise=0, texture=QUARTERS)
+    with Visit(browser, tmp_path / "p.html") as visit:
+        assert visit.tab.get_attribute("#tab-plane", "aria-selected") == "true"  # it opens there
+        visit.wait()
+        plain = visit.picture()
+        half = plain.shape[1] // 2
+        disk = plain[:, half:]
+        rows, columns = np.nonzero(np.abs(disk - 255).max(axis=2) > 20)
+        ends = [(min(x), np.ptp(x)) for x in (rows, columns)]
+        for y, x in ((0.3, 0.3), (0.3, 0.7), (0.7, 0.3), (0.7, 0.7)):
+            spot = [
+                int(first + part * size) for (first, size), part in zip(ends, (y, x), strict=True)
+            ]
+            color = 255 * QUARTERS[int(64 * y), int(64 * x)]
+            assert np.abs(disk[tuple(spot)] - 1.04 * color).max() < 5
+        seen = plain[:, :half].reshape(-1, 3)
+        for least in ((1, 2), (0, 2), (0, 1), (2,)):  # all four are on the surface
+            assert (seen[:, least].max(axis=1) < 0.3 * seen.max(axis=1)).mean() > 0.005
+        assert not visit.tab.is_visible("#plane-count")
+        visit.changes_by(lambda: visit.tab.select_option("#plane-shown", "angle"), 0.02)
+        visit.changes_by(lambda: visit.tab.select_option("#plane-pattern", "checks"), 0.02)
+        assert visit.tab.is_visible("#plane-count")
+        visit.tab.select_option("#plane-shown", "none")
+        visit.changes_by(lambda: visit.tab.select_option("#plane-pattern", "picture"), 0.02)
+        np.testing.assert_array_equal(visit.picture(), plain)
+
+
+@pytest.mark.parametrize("size", [(64, 64), (31, 50)], ids=["square", "odd"])
+def test_a_picture_where_the_mesh_says(browser, tmp_path, size):
+    blocks = np.random.default_rng(5).uniform(0.2, 1, (4, 4, 3))
+    rows, columns = (np.arange(length) * 4 // length for length in size)
+    picture = blocks[rows][:, columns]
+    flat = grid(9, 9)
+    x = flat.vertices[:, :2] / flat.vertices[:, :2].max()
+    uv = 3.4 + np.c_[1.3 * x[:, 1], 0.9 * x[:, 0]]  # a mirror image, over the edges of the picture
+    uv = uv[flat.faces]
+    uv[7] = np.nan
+    uv[90, 1] = np.nan
+    mesh = Mesh(np.c_[x, np.zeros(len(x))], flat.faces, None, uv)
+    write_page(mesh, tmp_path / "p.html", modes=4, noise=0, texture=picture)
+    with Visit(browser, tmp_path / "p.html", viewport={"width": 1500, "height": 700}) as visit:
+        for unfold in (0, 1):
+            visit.slide("plane-unfold", unfold)
+            visit.wait()
+            compare_with_picture(visit, mesh, blocks, unfold)
+        assert visit.told()["Faces without coordinates"] == "2"
+        assert visit.told()["Method"] == "given with the mesh"
+        turned = int(np.isfinite(uv).all(axis=(1, 2)).sum())
+        assert visit.told()["Bijection, decided exactly"] == f"no: {turned} faces turn over"
+        visit.tab.select_option("#plane-map", "0")
+        assert visit.told()["Bijection, decided exactly"] == "yes"
+
+
+def compare_with_picture(visit, mesh, blocks, unfold):
+    """The middle of each face is as the picture, times light; without coordinates it is clay."""
+    known = np.isfinite(mesh.corner_uv).all(axis=(1, 2))
+    uv = np.where(known[:, None], mesh.corner_uv.mean(axis=1), mesh.corner_uv[known].mean())
+    x = mesh.vertices[mesh.faces].mean(axis=1)
+    if unfold:
+        corners = mesh.corner_uv[known]
+        low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
+        flat = 1.8 * (uv - (low + high) / 2) / (high - low).max()
+    else:
+        unit, centre = visit.js("[beltrami.app.data.frame.unit, beltrami.app.data.frame.centre]")
+        flat = (x - centre)[:, :2] / unit
+    seen = visit.picture()
+    lens = np.array(visit.js("Array.from(beltrami.app.views[0].lens.matrix)")).reshape(4, 4).T
+    _, _, width, height = visit.js("beltrami.app.views[0].box")
+    at = np.c_[flat, np.zeros(len(flat)), np.ones(len(flat))] @ lens.T
+    at = at[:, :2] / at[:, 3:]
+    columns = ((1 + at[:, 0]) / 2 * width).astype(int)
+    rows = ((1 - at[:, 1]) / 2 * height).astype(int)
+    hue = seen[rows, columns] / seen[rows, columns].max(axis=1, keepdims=True)
+    place = (uv % 1) * len(blocks)
+    inside = known & (np.abs(place % 1 - 0.5).max(axis=1) < 0.3)  # no neighbour is mixed in
+    assert inside.sum() > 30
+    block = place.astype(int)
+    truth = blocks[len(blocks) - 1 - block[:, 1], block[:, 0]]
+    truth = truth / truth.max(axis=1, keepdims=True)
+    assert np.abs(hue - truth)[inside].max() < 0.04
+    if not unfold:
+        clay = np.array([0.94, 0.845, 0.76]) / 0.94
+        assert np.abs(hue - clay)[~known].max() < 0.04
 
 
 def test_why_there_is_no_map(browser, tmp_path):

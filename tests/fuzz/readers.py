@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from beltrami.compression.contents import describe
 from beltrami.compression.decompress import decompress
 from beltrami.errors import FileFormatError
 from beltrami.io.function import read_function
-from beltrami.io.registry import READERS
+from beltrami.io.registry import READERS, read_mesh
 from beltrami.io.source import Source
 from beltrami.spectrum.load_basis import load_basis
 
@@ -39,6 +40,11 @@ def _of_file(suffix, reader):
     return read
 
 
+def _packed(suffix):
+    """Read a file that is compressed, or whose numbers are, by its name."""
+    return _of_file(suffix, partial(read_mesh, max_bytes=1 << 20))
+
+
 def _compressed(data):
     mesh = decompress(data, max_vertices=_MOST)
     assert np.isfinite(mesh.vertices).all()
@@ -54,6 +60,9 @@ TARGETS = {
     "csv": _of_file(".csv", read_function),
     "npy": _of_file(".npy", read_function),
     "npz": _of_file(".npz", load_basis),
+    "gz": _packed(".off.gz"),
+    "gii": _packed(".gii"),
+    "vtu": _packed(".vtu"),
 }
 
 

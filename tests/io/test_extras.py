@@ -51,10 +51,12 @@ def test_polygons(tmp_path):
 
 
 @pytest.mark.parametrize("suffix", [".gii", ".vtk", ".vtu", ".glb", ".msh", ".pial", ".gii.gz"])
-def test_broken_files(put, suffix):
+def test_broken_files(put, capfd, suffix):
     for content in (b"", b"no such file at all", b"\x1f\x8b" + b"\0" * 50):
-        with pytest.raises(FileFormatError):
+        with pytest.raises(FileFormatError) as error:
             read_mesh(put(f"a{suffix}", content))
+        assert str(error.value).count("\n") == 0
+    assert capfd.readouterr() == ("", "")  # the packages print nothing
 
 
 def test_missing_package(put, monkeypatch):

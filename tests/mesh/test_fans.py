@@ -72,7 +72,7 @@ def test_two_tetrahedra_that_share_a_vertex():
     topology = Topology(np.concatenate([one, other]))
     assert topology.is_edge_manifold
     assert topology.is_closed
-    assert topology.half_edges.edge_face_count.tolist() == [2] * 12
+    assert topology.edge_face_count.tolist() == [2] * 12
     assert topology.euler_characteristic == 3
     assert not topology.is_manifold
     assert topology.non_manifold_vertices.tolist() == [0]

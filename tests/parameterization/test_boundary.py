@@ -200,7 +200,7 @@ def test_errors_name_vertices_and_edges_of_what_was_given():
     two = Mesh(x, np.concatenate([flat.faces, square.faces + n]))
     with pytest.raises(BoundaryCurveError) as caught:
         parameterize(two, boundary=3)
-    inner = two.edges[two.topology.half_edges.edge_face_count == 2]
+    inner = two.edges[two.topology.edge_face_count == 2]
     assert {tuple(edge) for edge in caught.value.edges} <= {tuple(edge) for edge in inner.tolist()}
     assert caught.value.edges.min() >= n
     loop = square.boundary_loops[0][[0, 2, 4]] + n

@@ -60,7 +60,7 @@ def test_both_conditions_on_the_faces_need_unordered_faces(name):
     b = len(topology.boundary_edges)
     assert counts["rotations"].count(0) == b
     assert counts["unordered"].count(1) == 2 * b
-    faces = topology.half_edges.edge_face_count
+    faces = topology.edge_face_count
     assert sorted(np.repeat(faces, 2)) == sorted(counts["unordered"])
     assert not len(topology.non_manifold_edges)
 

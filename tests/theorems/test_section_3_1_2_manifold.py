@@ -22,7 +22,7 @@ def _by_links(topology):
 
 def _by_edges(topology):
     """The condition that the text draws from it: at most two faces on each edge."""
-    return bool(topology.half_edges.edge_face_count.max() <= 2)
+    return bool(topology.edge_face_count.max() <= 2)
 
 
 def _check(test):

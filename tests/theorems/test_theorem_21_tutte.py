@@ -163,7 +163,7 @@ def test_negative_weights_need_more_than_an_obtuse_angle():
     weights = np.asarray(W[i, j])
     angles = np.zeros(len(mesh.edges))
     np.add.at(angles, mesh.topology.face_edges.ravel(), mesh.corner_angles.ravel())
-    inner = mesh.topology.half_edges.edge_face_count == 2
+    inner = mesh.topology.edge_face_count == 2
     limit = np.where(inner, np.pi, np.pi / 2)
     np.testing.assert_array_equal(weights < 0, angles > limit)
     obtuse = int(np.count_nonzero(mesh.corner_angles > np.pi / 2))

@@ -149,7 +149,7 @@ def test_with_negative_weights_the_energy_would_grow():
 
 def _sharpest(mesh: Mesh) -> float:
     """Largest angle, in degrees, between the normals of two neighbouring faces."""
-    inner = mesh.topology.edge_faces[mesh.topology.half_edges.edge_face_count == 2]
+    inner = mesh.topology.edge_faces[mesh.topology.edge_face_count == 2]
     one, two = mesh.face_normals[inner.indices.reshape(-1, 2)].transpose(1, 0, 2)
     return float(np.degrees(np.arccos(np.clip((one * two).sum(axis=1), -1, 1)).max()))
 

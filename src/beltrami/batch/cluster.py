@@ -14,6 +14,7 @@ from typing import Any, Final
 from beltrami._optional import require
 from beltrami.batch.limits import at_most
 from beltrami.batch.record import FAILED, Problem
+from beltrami.batch.time_limit import process_in_time, told_late
 from beltrami.batch.work import Job, Outcome, process
 from beltrami.errors import BeltramiError
 
@@ -22,6 +23,7 @@ _THREADS: Final = ("OMP", "OPENBLAS", "MKL", "NUMBA", "VECLIB")
 _ENVIRONMENT: Final = "distributed.nanny.pre-spawn-environ"
 _CONFIG: Final[Mapping[str, Any]] = {
     "distributed.scheduler.allowed-failures": 1,  # a job is done again once, on a new worker
+    "distributed.scheduler.worker-ttl": None,  # compiled code may keep a worker silent for long
     "distributed.scheduler.worker-saturation": 1.0,  # no job waits behind one that may kill
     "distributed.worker.memory.target": False,
     "distributed.worker.memory.spill": False,
@@ -81,8 +83,11 @@ def local_workers(count: int, memory: int) -> Iterator[Workers]:
 
 
 @contextmanager
-def workers_at(address: str) -> Iterator[Workers]:
-    """Connect to a scheduler that somebody has started."""
+def workers_at(address: str, *, ending: bool = False) -> Iterator[Workers]:
+    """Connect to a scheduler that somebody has started.
+
+    With ``ending`` its workers must be processes that may end, because others watch over them.
+    """
     distributed = require("distributed", "batch", "a batch on a cluster")
     try:
         client = distributed.Client(address, timeout="10s")
@@ -92,7 +97,18 @@ def workers_at(address: str) -> Iterator[Workers]:
         found = Workers(client)
         if not found.count:
             raise BeltramiError(f"the scheduler at {address} has no workers: start some")
+        if ending and client.run_on_scheduler(_shared):
+            raise BeltramiError(
+                "a time limit ends workers: start them with one thread, and with a nanny that "
+                "starts another one (dask worker --nthreads 1 --nanny)"
+            )
         yield found
+
+
+def _shared(dask_scheduler: Any) -> bool:
+    """Say whether a worker has several threads, or nobody who starts another one."""
+    workers = dask_scheduler.workers.values()
+    return any(worker.nthreads != 1 or not worker.nanny for worker in workers)
 
 
 def on_workers(workers: Workers, jobs: Iterator[Job]) -> Generator[Outcome]:
@@ -108,20 +124,21 @@ def on_workers(workers: Workers, jobs: Iterator[Job]) -> Generator[Outcome]:
     """
     distributed = require("distributed", "batch", "a batch of several workers")
     run = uuid.uuid4().hex[:12]
-    live: dict[str, tuple[Any, str]] = {}
+    live: dict[str, tuple[Any, Job]] = {}
     pending = distributed.as_completed([])
     ahead, sent = _AHEAD * max(1, workers.count), 0
     try:
         while True:
             while len(live) < ahead and (job := next(jobs, None)) is not None:
-                future = workers.client.submit(_limited, job, key=f"{run}-{sent}", pure=False)
-                live[future.key] = future, job.name
+                key = f"{run}-{sent}"
+                future = workers.client.submit(_limited, job, key, key=key, pure=False)
+                live[key] = future, job
                 pending.add(future)
                 sent += 1
             if not live:
                 return
-            future, name = live.pop(next(pending).key)
-            outcome = _outcome_of(future, name, workers)
+            future, job = live.pop(next(pending).key)
+            outcome = _outcome_of(future, job, workers)
             del future  # so that nobody keeps what it returned, or does it again
             yield outcome
     finally:
@@ -129,26 +146,30 @@ def on_workers(workers: Workers, jobs: Iterator[Job]) -> Generator[Outcome]:
             workers.client.cancel([future for future, _ in live.values()], force=True)
 
 
-def _limited(job: Job) -> Outcome:
-    """Do a job under its limit of memory, if this process does one job at a time."""
+def _limited(job: Job, key: str) -> Outcome:
+    """Do a job under its limits of memory and time, if this process does one job at a time."""
     alone = require("distributed", "batch", "a batch").get_worker().state.nthreads == 1
     with at_most(job.allowed if alone else None):
-        return process(job)
+        return process_in_time(job, key) if alone else process(job)
 
 
-def _outcome_of(future: Any, name: str, workers: Workers) -> Outcome:
+def _outcome_of(future: Any, job: Job, workers: Workers) -> Outcome:
     """Return what a worker returned, or why none could."""
     distributed = require("distributed", "batch", "a batch")
     try:
         outcome: Outcome = future.result()
     except distributed.KilledWorker as error:
+        late = told_late(job, future.key)
+        if late is not None:
+            return late
         count = error.allowed_failures + 1
         if error.last_worker.address in workers.overfull:
             reason = "out of memory: the worker went beyond its limit, and was stopped"
         else:
             reason = "the worker died, as it does when the machine is out of memory"
+            reason += "" if job.seconds is None else ", or the mesh late on several machines"
         text = f"{reason}, {count} times. Allow more memory, or take fewer workers"
-        return Outcome(name, FAILED, error=Problem("KilledWorker", text))
+        return Outcome(job.name, FAILED, error=Problem("KilledWorker", text))
     except (distributed.client.FutureCancelledError, OSError) as cause:
         raise BeltramiError(
             "the scheduler was lost. What is done is kept; run it again to go on"

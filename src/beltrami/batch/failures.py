@@ -42,6 +42,17 @@ class TooLargeError(BeltramiError, MemoryError):
         )
 
 
+class TimeLimitError(BeltramiError, TimeoutError):
+    """A mesh took more ``seconds`` than it may; the process that worked on it was ended."""
+
+    def __init__(self, seconds: float) -> None:
+        self.seconds = seconds
+        super().__init__(
+            f"more than the {seconds:g} s were needed that a mesh may take, and its worker was "
+            "stopped. Allow more, or ask for less"
+        )
+
+
 class StoreError(BeltramiError, OSError):
     """The results cannot be written: the disk is full, or the place not writable.
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import os
 import tempfile
-import zlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -22,6 +21,7 @@ from beltrami.errors import FileFormatError
 from beltrami.io import extras
 from beltrami.io.registry import READERS, suffix_of
 from beltrami.io.source import Source
+from beltrami.io.unpacking import gunzipped, room_of
 from beltrami.mesh.mesh import Mesh
 
 _BLOCK = 1 << 20
@@ -55,10 +55,14 @@ def read_input(name: str, place: str, allowed: int | None = None) -> Input:
         If the suffix is not that of a mesh.
     TooLargeError
         If reading the mesh would need more memory than is allowed.
+    FileFormatError
+        If it is a member of an archive that unpacks to more than it may (see ``read_mesh``).
     """
     member = place.partition("::")[0]
     suffix = suffix_of(member, None, MESHES)
-    with _opened(place) as file:
+    opened = _opened(place)
+    _require_no_bomb(opened, place)
+    with opened as file:
         content = _content(file, suffix, allowed)
     digest = hashlib.sha256(content.data).hexdigest()
     packed = member.lower().endswith(".gz")
@@ -71,7 +75,7 @@ def mesh_of(given: Input, allowed: int | None = None) -> Mesh:
     Raises
     ------
     FileFormatError
-        If the bytes are not what the suffix promises.
+        If the bytes are not what the suffix promises, or a bomb (see ``read_mesh``).
     TooLargeError
         If they unpack to more than the memory that is allowed.
     """
@@ -95,6 +99,13 @@ def _opened(place: str) -> Any:
     if os.path.isdir(place):
         raise FileFormatError(place, "expected a file, found a directory. Name a file in it")
     return open(place, "rb")
+
+
+def _require_no_bomb(opened: Any, place: str) -> None:
+    """Refuse a member of a zip file that says that it unpacks to more than it may."""
+    if place.startswith("zip://"):
+        facts = opened.fs.info(opened.path)
+        room_of(place, int(facts["compress_size"])).take(int(facts["size"]))
 
 
 def _content(file: Any, suffix: str, allowed: int | None) -> NDArray[np.uint8]:
@@ -132,22 +143,11 @@ def _require_room(size: int, suffix: str, allowed: int | None) -> None:
 
 
 def _unpacked(packed: NDArray[np.uint8], given: Input, allowed: int | None) -> NDArray[np.uint8]:
-    """Decompress, and stop where the memory that is allowed would not do."""
-    result, unpacker = bytearray(), zlib.decompressobj(wbits=31)
-    try:
-        for start in range(0, len(packed), _BLOCK):
-            rest = packed[start : start + _BLOCK].tobytes()
-            while rest:
-                if unpacker.eof:  # zeros to fill up, or another member
-                    rest = rest.lstrip(b"\0")
-                    if not rest:
-                        break
-                    unpacker = zlib.decompressobj(wbits=31)
-                result += unpacker.decompress(rest, _BLOCK)
-                _require_room(len(result), given.suffix, allowed)
-                rest = unpacker.unused_data if unpacker.eof else unpacker.unconsumed_tail
-        if not unpacker.eof:
-            raise EOFError("the end is missing")
-    except (EOFError, zlib.error) as cause:
-        raise FileFormatError(given.name, f"expected a whole gzip file ({cause})") from cause
-    return np.frombuffer(result, np.uint8)
+    """Decompress, and stop where it is a bomb, or the memory that is allowed would not do."""
+    room = room_of(given.name, len(packed))
+
+    def take(count: int) -> None:
+        room.take(count)
+        _require_room(room.used, given.suffix, allowed)
+
+    return gunzipped(packed, given.name, take)

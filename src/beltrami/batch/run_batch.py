@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from beltrami._arrays import whole
+from beltrami._kinds import checked
 from beltrami._optional import require
 from beltrami.batch.cluster import local_workers, most_memory, on_workers, one_by_one, workers_at
 from beltrami.batch.failures import PipelineError, StoreError, StrictError
@@ -19,6 +20,7 @@ from beltrami.batch.results import MANIFEST, TABLE, write_results
 from beltrami.batch.sources import Sources, find_sources
 from beltrami.batch.state import Failure, State, Tally, Watcher
 from beltrami.batch.store import Store
+from beltrami.batch.time_limit import parse_time
 from beltrami.batch.work import REDO, STOPPED, Job, Outcome
 from beltrami.errors import check_name
 
@@ -53,6 +55,7 @@ class Batch:
         return f"<Batch: {s.done} of {s.total} meshes done, {s.failed} failed, in {self.out}>"
 
 
+@checked
 def run_batch(
     sources: Sources,
     pipeline: object,
@@ -61,6 +64,7 @@ def run_batch(
     workers: int | None = None,
     scheduler: str | None = None,
     memory: str | float | None = None,
+    time_limit: str | float | None = None,
     redo: str = "nothing",
     strict: bool = False,
     watch: Watcher | None = None,
@@ -92,6 +96,9 @@ def run_batch(
     memory
         What each worker may have: ``"4GB"``, or bytes. By default what the machine has, divided
         among the workers. A mesh that is estimated to need more fails before its work begins.
+    time_limit
+        What each mesh may take: ``"10min"``, or seconds. One that takes longer fails: its worker
+        is stopped, and another one started. It needs workers.
     redo
         ``"nothing"``; ``"failed"``: meshes whose error would come again, too; ``"all"``.
     strict
@@ -136,13 +143,20 @@ def run_batch(
     """
     steps = as_pipeline(pipeline)
     check_name("redo", redo, REDO)
+    seconds = None if time_limit is None else parse_time(time_limit)
     require("pyarrow.parquet", "batch", "the table of a batch")
     store = Store(out)
     found = find_sources(sources, store.root if store.is_local else None)
     place = store.root if store.is_local else store.place
     names = [source.name for source in found.sources]
-    with store.claimed(), _running(workers, scheduler, memory, len(names)) as (run, allowed):
-        jobs = (Job(s.name, s.place, steps, place, allowed, redo) for s in found.sources)
+    with (
+        store.claimed(),
+        _running(workers, scheduler, memory, len(names), ending=seconds is not None) as (
+            run,
+            allowed,
+        ),
+    ):
+        jobs = (Job(s.name, s.place, steps, place, allowed, redo, seconds) for s in found.sources)
         tally = Tally(len(names), watch)
         try:
             with closing(run(jobs)) as outcomes:
@@ -160,17 +174,24 @@ def run_batch(
 
 @contextmanager
 def _running(
-    workers: int | None, scheduler: str | None, memory: str | float | None, most: int
+    workers: int | None,
+    scheduler: str | None,
+    memory: str | float | None,
+    most: int,
+    *,
+    ending: bool,
 ) -> Iterator[tuple[Callable[[Iterator[Job]], Generator[Outcome]], int | None]]:
     """Start what does the jobs; yield it, with the bytes that a job may have."""
     allowed = None if memory is None else parse_size(memory)
     if scheduler is not None:
         if workers is not None:
             raise PipelineError(0, "a scheduler has its own workers: give one or the other")
-        with workers_at(scheduler) as cluster:
+        with workers_at(scheduler, ending=ending) as cluster:
             yield partial(on_workers, cluster), allowed
         return
     if workers is not None and whole("workers", workers, 0) == 0:
+        if ending:
+            raise PipelineError(0, "a time limit stops the worker that is late: take workers=1")
         yield one_by_one, allowed
         return
     total = most_memory()

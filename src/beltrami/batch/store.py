@@ -24,7 +24,8 @@ from beltrami.batch.sources import MAGIC
 _AT_ONCE: Final = ("s3", "s3a", "gs", "gcs", "az", "abfs", "abfss", "adl", "oci")
 _FILE: Final = re.compile(r"files/([0-9a-f]{2})/\1[0-9a-f]{62}\.[a-z]{3}")
 _WORK: Final = re.compile(r"work/([0-9a-f]{2})/\1[0-9a-f]{62}\.json")
-_INCOMING: Final = "incoming"
+INCOMING: Final = "incoming"  # what is half-written
+MARK: Final = ".steps"  # of files there that tell how far somebody is
 _BLOCK: Final = 1 << 20
 
 
@@ -93,9 +94,9 @@ class Store:
             yield
             return
         with self._told():
-            incoming = Path(self.root, _INCOMING)
-            incoming.mkdir(parents=True, exist_ok=True)
+            incoming = Path(self.root, INCOMING)
             self._inside(incoming)
+            incoming.mkdir(parents=True, exist_ok=True)
             descriptor = os.open(Path(self.root, ".lock"), os.O_WRONLY | os.O_CREAT, 0o666)
         with open(descriptor, "wb") as lock:
             if not lock_file(lock):
@@ -103,6 +104,8 @@ class Store:
             for left in incoming.iterdir():
                 if left.is_dir() and not left.is_symlink():
                     shutil.rmtree(left, ignore_errors=True)
+                elif left.suffix == MARK:
+                    left.unlink()
             yield
 
     def keep(self, suffix: str, write: Callable[[Path], object]) -> Kept:
@@ -174,15 +177,15 @@ class Store:
         with self._told():
             if self.is_local:
                 folder = Path(target).parent
+                self._inside(folder)  # before anything is made there
                 folder.mkdir(parents=True, exist_ok=True)
-                self._inside(folder)
                 _flush(path)
                 os.replace(path, target)
             elif self._at_once:
                 self._files.put_file(str(path), target)
             else:
-                half = f"{self.root}/{_INCOMING}/{os.path.basename(path.parent)}"
-                self._files.makedirs(f"{self.root}/{_INCOMING}", exist_ok=True)
+                half = f"{self.root}/{INCOMING}/{os.path.basename(path.parent)}"
+                self._files.makedirs(f"{self.root}/{INCOMING}", exist_ok=True)
                 self._files.makedirs(target.rpartition("/")[0], exist_ok=True)
                 self._files.put_file(str(path), half)
                 self._files.mv(half, target)
@@ -196,7 +199,7 @@ class Store:
     @contextmanager
     def _scratch(self) -> Iterator[str]:
         """Make a folder for half-written files: within the store, if it is local."""
-        home = os.path.join(self.root, _INCOMING) if self.is_local else None
+        home = os.path.join(self.root, INCOMING) if self.is_local else None
         try:
             if home is not None:
                 os.makedirs(home, exist_ok=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import platform
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
@@ -42,6 +42,8 @@ class Job:
         Bytes of memory that the process may have; None is no limit.
     redo
         ``"nothing"`` that is done already, what ``"failed"``, or ``"all"``.
+    seconds
+        What it may take in a process of its own; None is no limit.
     """
 
     name: str
@@ -50,6 +52,7 @@ class Job:
     store: str
     allowed: int | None = None
     redo: str = "nothing"
+    seconds: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,8 +84,14 @@ class Outcome:
     error: Problem | None = None
 
 
-def process(job: Job) -> Outcome:
+def _nobody(_step: str) -> None:
+    """Note nothing."""
+
+
+def process(job: Job, tell: Callable[[str], object] = _nobody) -> Outcome:
     """Do the work on one mesh; whatever happens to the mesh is told, and not raised.
+
+    Each step is told to ``tell`` when it begins.
 
     A failure is kept as a record if it follows from the bytes and the pipeline alone. What
     circumstances cause (a source that cannot be read, too little memory) is told and not kept,
@@ -91,9 +100,10 @@ def process(job: Job) -> Outcome:
     step = "reading"
     try:
         store = _store(job.store)
+        tell(step)
         given = read_input(job.name, job.place, job.allowed)
         step = ""  # from here on the steps put their names on their errors
-        return _known(job, store, given) or _worked(job, store, given)
+        return _known(job, store, given) or _worked(job, store, given, tell)
     except StoreError as error:
         return Outcome(job.name, STOPPED, error=_problem(error))
     except Exception as error:  # noqa: BLE001 - remote file systems raise anything
@@ -113,9 +123,9 @@ def _known(job: Job, store: Store, given: Input) -> Outcome | None:
     return _outcome(job, given, record, reused=True)
 
 
-def _worked(job: Job, store: Store, given: Input) -> Outcome:
+def _worked(job: Job, store: Store, given: Input, tell: Callable[[str], object]) -> Outcome:
     """Run the steps and write the record, which is the last thing that happens."""
-    bench = _Bench(job.pipeline, store, job.allowed)
+    bench = _Bench(job.pipeline, store, job.allowed, tell)
     error = bench.run(given)
     record = Record(
         _key(job, given),
@@ -141,6 +151,7 @@ class _Bench:
     pipeline: Pipeline
     store: Store
     allowed: int | None
+    tell: Callable[[str], object]
     row: dict[str, Any] = field(default_factory=dict)
     files: dict[str, Kept] = field(default_factory=dict)
     seconds: dict[str, float] = field(default_factory=dict)
@@ -172,6 +183,7 @@ class _Bench:
 
     @contextmanager
     def _timed(self, label: str) -> Iterator[None]:
+        self.tell(label)
         start = time.thread_time()
         try:
             yield

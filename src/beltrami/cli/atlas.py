@@ -62,10 +62,10 @@ def atlas(
     json: Json = False,
 ) -> None:
     """Part a surface into charts, packed in a square; bake --data into a texture."""
-    from beltrami.io.registry import TEXTURED, read_mesh, write_mesh
+    from beltrami.io.registry import read_mesh, write_mesh
     from beltrami.parameterization import atlas as room
 
-    check_texture_output(output, TEXTURED)
+    check_texture_output(output)
     if data is None and (colormap, limits, data_name) != (None, None, None):
         raise typer.BadParameter("--colormap, --limits and --data-name go with --data")
     if data is not None and texture is not None:

@@ -55,6 +55,12 @@ def batch(
             show_default="the machine's, divided",
         ),
     ] = None,
+    time_limit: Annotated[
+        str | None,
+        typer.Option(
+            metavar="TIME", help="What each mesh may take, as 10min; one that takes longer fails."
+        ),
+    ] = None,
     redo: Annotated[
         str, typer.Option(help="What is done already: nothing, failed or all is done again.")
     ] = "nothing",
@@ -76,6 +82,7 @@ def batch(
             workers=workers,
             scheduler=scheduler,
             memory=memory,
+            time_limit=time_limit,
             redo=redo,
             strict=strict,
             watch=watch,

@@ -18,14 +18,14 @@ def check_mesh_output(path: Path) -> None:
     suffix_of(path, None, (*WRITERS, *extras.WRITERS))
 
 
-def check_texture_output(path: Path, formats: tuple[str, ...] = (".obj",)) -> None:
+def check_texture_output(path: Path) -> None:
     """Raise now what writing a mesh with texture coordinates would raise after the work."""
     from beltrami.errors import check_name
-    from beltrami.io.registry import WRITERS, suffix_of
+    from beltrami.io.registry import TEXTURED
 
     _check_place(path)
-    suffix = suffix_of(path, None, (*WRITERS, *formats))
-    check_name("format for texture coordinates", suffix, formats)
+    named = path.with_suffix("") if path.suffix.lower() == ".gz" else path
+    check_name("format for texture coordinates", named.suffix.lower(), TEXTURED)
 
 
 def check_values_output(path: Path) -> None:

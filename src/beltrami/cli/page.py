@@ -41,6 +41,14 @@ def page(
     ] = 0.2,
     up: Annotated[str, Option(help="Upward axis at first: x, y or z.")] = "y",
     unit: Annotated[str, Option(help="Unit of length, for the axes: mm.", show_default=False)] = "",
+    texture: Annotated[
+        str | None,
+        Option(
+            metavar="FILE",
+            help="Picture for the surface and its map, or checkerboard.",
+            show_default=False,
+        ),
+    ] = None,
 ) -> None:
     """Write one HTML file to see a mesh in: eigenfunctions, heat, waves, filters.
 
@@ -68,6 +76,7 @@ def page(
             noise=noise,
             up=up,
             unit=unit,
+            texture=texture if texture in (None, "checkerboard") else Path(texture),
             progress=progress,
         )
     for note in written.notes:

@@ -12,10 +12,11 @@ from beltrami.cli.options import Json, MeshFile
 from beltrami.cli.outputs import check_texture_output
 
 if TYPE_CHECKING:
+    from beltrami.parameterization.certificate import Certificate
     from beltrami.parameterization.parameterization import Parameterization
 
 TexturedOutput = Annotated[
-    Path, typer.Option("-o", "--output", metavar="FILE", help="OBJ file with texture coordinates.")
+    Path, typer.Option("-o", "--output", metavar="FILE", help="OBJ or GLB with these coordinates.")
 ]
 
 
@@ -88,10 +89,12 @@ def parameterize(
 def report(output: Path, found: Parameterization, *, json: bool) -> None:
     """Tell the certificate, the cut and the distortion."""
     certificate, distortion = found.certificate, found.distortion
+    written = _as_written(output, found)
     if json:
         print_json(
             {
                 "bijective": found.is_bijective,
+                "bijective_as_written": written.is_bijective,
                 "flipped": found.flipped,
                 "crossings": certificate.crossings,
                 "cut_edges": found.cut_edges,
@@ -109,7 +112,25 @@ def report(output: Path, found: Parameterization, *, json: bool) -> None:
         f"{len(found.flipped)} of {found.mesh.n_faces} faces flipped, "
         f"{len(certificate.crossings)} crossings of the boundary (exact)"
     )
+    if found.is_bijective and not written.is_bijective:
+        typer.echo(
+            f"warning: rounded to the 32 bits of GLB it is none: {len(written.flipped)} faces "
+            f"flipped, {len(written.crossings)} crossings; OBJ keeps it as it is",
+            err=True,
+        )
     typer.echo(
         f"distortion (1 = isometry): conformal {distortion.mean_conformal:.4g}, area "
         f"{distortion.mean_area:.4g}, symmetric Dirichlet {distortion.symmetric_dirichlet:.4g}"
     )
+
+
+def _as_written(output: Path, found: Parameterization) -> Certificate:
+    """Certify what the file holds: GLB has u and 1 - v in single precision, where they may fold."""
+    import numpy as np
+
+    from beltrami.parameterization.certificate import certify
+
+    if ".glb" not in output.name.lower():
+        return found.certificate
+    held = np.column_stack([found.uv[:, 0], 1 - found.uv[:, 1]]).astype(np.float32)
+    return certify(found.mesh.topology, held * np.array([1.0, -1.0]))

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from beltrami._arrays import Floats, Integers, require_finite, whole
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.compression.attributes import Attributes, check_errors, encode_attributes
 from beltrami.compression.choosing import MODES, Wish, encode_wish
@@ -40,6 +41,7 @@ from beltrami.mesh.topology import Topology
 _BITS = 14
 
 
+@checked
 def compress(
     mesh: Mesh,
     path: str | os.PathLike[str] | None = None,

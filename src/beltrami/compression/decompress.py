@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beltrami._arrays import Integers, whole
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.compression.attributes_reading import decode_attributes
 from beltrami.compression.connectivity import decode_connectivity
@@ -35,6 +36,7 @@ MAX_VERTICES = 10_000_000
 _ALWAYS = 1 << 20  # numbers that are not too many
 
 
+@checked
 def decompress(
     source: bytes | str | os.PathLike[str],
     max_vertices: int = MAX_VERTICES,

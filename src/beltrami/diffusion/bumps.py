@@ -8,16 +8,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, Integers, as_indices, rectangular, require_finite
+from beltrami._kinds import checked
 from beltrami.errors import BeltramiError, DimensionError, check_name
 from beltrami.geodesics.distance import geodesic_distance
 from beltrami.geodesics.heat_method import HeatMethod
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
+from beltrami.operators.domain import require_laplacian
 from beltrami.operators.pair import Laplacian
 from beltrami.operators.soundness import require_sound
 
 BUMP_DISTANCES = ("heat", "exact", "edges", "euclidean")
 
 
+@checked
 def gaussian_bumps(
     mesh: Mesh,
     vertices: ArrayLike,
@@ -67,7 +71,9 @@ def gaussian_bumps(
     [1.0, -1.0]
     """
     check_name("distance of bumps", distance, BUMP_DISTANCES)
-    centres = as_indices(vertices, mesh.n_vertices, "centres")
+    centres = as_indices(vertices, require_mesh(mesh, "bumps").n_vertices, "centres")
+    if balance is not None:
+        require_laplacian(balance, "the balance of bumps")
     given = np.asarray(rectangular(heights), np.float64)
     if given.ndim == 0:
         given = np.full(len(centres), float(given))

@@ -9,6 +9,7 @@ import numpy as np
 
 from beltrami._arrays import Integers
 from beltrami._carded import Carded
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.diffusion.candidates import SECOND, Bench
 from beltrami.diffusion.choice import (
@@ -23,6 +24,7 @@ from beltrami.diffusion.noise import STRONG, NoiseLevel, noise_level
 from beltrami.diffusion.patches import components_of, part_of, sample_of
 from beltrami.diffusion.vertex_update import require_agreeing_normals
 from beltrami.errors import BeltramiError, check_name
+from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 
 DENOISING_METHODS = ("auto", "linear")
@@ -130,6 +132,7 @@ class Denoised(Carded):
         return f"<Denoised: σ = {self.sigma:.3g}, mostly {main}>"
 
 
+@checked
 def denoise(
     mesh: Mesh,
     method: str = "auto",
@@ -182,8 +185,9 @@ def denoise(
     so the same mesh gives the same result. The mixtures are chosen as if σ were 15 % larger: to
     take some shape for noise costs little, but what is left of the noise spoils the normals; and
     the chosen mixture fits the noise it was chosen on. Where the noise is very strong it is 50 %,
-    because the normals, along which it is looked for, are off. The ``predicted_error`` is for σ as it is,
-    and at least σ times the divergence for each vertex, the least that a linear filter leaves.
+    because the normals, along which it is looked for, are off. The ``predicted_error`` is for σ as
+    it is, and at least σ times the divergence for each vertex, the least that a linear filter
+    leaves.
     Filters of normals, and the second mixture, are left out where what they gain may be chance.
 
     Components of at least 1000 vertices, the eight largest, have a noise level and mixtures of
@@ -208,7 +212,7 @@ def denoise(
     check_name("method of denoising", method, DENOISING_METHODS)
     if noise is not None and not (math.isfinite(noise) and noise >= 0):
         raise BeltramiError(f"the noise must be finite and >= 0, not {noise}")
-    require_agreeing_normals(mesh)
+    require_agreeing_normals(require_mesh(mesh, "denoise"))
     moved = np.array(mesh.vertices)
     components = components_of(mesh, _OWN, _PARTS)
     size = max(_SAMPLE // len(components), _LEAST_SAMPLE)

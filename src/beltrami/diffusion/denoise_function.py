@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats, as_function
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.diffusion.noise import NoiseLevel, noise_level
 from beltrami.diffusion.risk import best_mixture, mixture_risk
@@ -60,6 +61,7 @@ class DenoisedFunction:
         return f"<DenoisedFunction: σ = {levels}>"
 
 
+@checked
 def denoise_function(
     laplacian: Laplacian,
     f: ArrayLike,

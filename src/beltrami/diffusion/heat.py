@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_function
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.diffusion.exponential import diffuse_exactly
 from beltrami.diffusion.heat_steps import crank_nicolson_steps, explicit_steps, implicit_steps
@@ -32,6 +33,7 @@ _LONG = 1e4
 _MOST_STEPS = 10_000_000  # of the explicit scheme, if the caller does not insist
 
 
+@checked
 def heat(
     laplacian: Laplacian,
     f: ArrayLike,

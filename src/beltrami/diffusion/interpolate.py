@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats
+from beltrami._kinds import checked
 from beltrami.diffusion.held import FreePart, free_part, held_values, positions_of
 from beltrami.errors import BeltramiError, MeshError
 from beltrami.operators.areas import diagonal_matrix
@@ -15,6 +16,7 @@ from beltrami.operators.pair import Laplacian
 from beltrami.solvers.factorize import factorize
 
 
+@checked
 def interpolate(
     laplacian: Laplacian, vertices: ArrayLike, values: ArrayLike, order: int = 1
 ) -> Floats:

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats, as_function
+from beltrami._kinds import checked
 from beltrami.diffusion.held import FreePart, free_part, held_values, positions_of
 from beltrami.diffusion.steady import steady_state
 from beltrami.errors import BeltramiError, DimensionError, IncompatibleError
@@ -20,6 +21,7 @@ _ROUNDING = 1e-9  # of the mean of |ρ|: what its mean may be off
 _NAMED = 3  # components in a message
 
 
+@checked
 def poisson(
     laplacian: Laplacian,
     right: ArrayLike,

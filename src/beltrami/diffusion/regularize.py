@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats, as_function
+from beltrami._kinds import checked
 from beltrami.diffusion.held import FreePart, free_part, held_vertices, positions_of
 from beltrami.diffusion.steady import steady_state
 from beltrami.errors import BeltramiError, DimensionError, MeshError, check_name
@@ -20,6 +21,7 @@ from beltrami.solvers.factorize import factorize
 FORMS = ("mass", "identity", "normalized")
 
 
+@checked
 def regularize(
     laplacian: Laplacian,
     f: ArrayLike,

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_indices
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.diffusion.smoothing_methods import SMOOTHING_METHODS
 from beltrami.errors import BeltramiError, check_name
@@ -15,6 +16,7 @@ from beltrami.mesh.mesh import Mesh
 KEPT = ("volume", "centroid")
 
 
+@checked
 def smooth_mesh(
     mesh: Mesh,
     method: str = "averaging",

@@ -10,6 +10,7 @@ from scipy.sparse import csr_array
 
 from beltrami._arrays import Booleans, Floats, as_function, as_indices
 from beltrami._jit import kernel
+from beltrami._kinds import checked
 from beltrami._progress import Progress, stages
 from beltrami.errors import BeltramiError, StepTooLongError
 from beltrami.operators.domain import require_laplacian
@@ -19,6 +20,7 @@ from beltrami.solvers.locality import LocalRows, local_rows
 _ROUNDS_A_CALL = 20  # between two looks at the progress, and at ctrl-C
 
 
+@checked
 def smooth(
     laplacian: Laplacian,
     f: ArrayLike,

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_function, rectangular
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.diffusion.held import (
     FreePart,
@@ -30,6 +31,7 @@ _UNCOUNTABLE = 2.0**53
 _MOST_STEPS = 10_000_000  # of leapfrog, if the caller does not insist
 
 
+@checked
 def wave(
     laplacian: Laplacian,
     f: ArrayLike,

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_floats, as_function, require_finite, whole
 from beltrami._jit import kernel
+from beltrami._kinds import checked
 from beltrami.display.raster import NOTHING, visible_triangles
 from beltrami.display.srgb import Image
 from beltrami.display.triangles import GRID, Triangles
@@ -88,6 +89,7 @@ def bake(atlas: TextureAtlas | Mesh, f: ArrayLike, size: int | None = None) -> F
     return texels[..., 0] if values.ndim == 1 else texels
 
 
+@checked
 def colorize(
     values: ArrayLike,
     colormap: str | ArrayLike | None = None,

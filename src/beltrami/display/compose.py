@@ -31,8 +31,8 @@ def compose(
     in its middle where that is zero.
     """
     width, height = style.size
-    letters = load_font(font, max(round(min(style.size) * 0.036), 11))
-    small = load_font(font, max(round(min(style.size) * 0.028), 10))
+    letters = load_font(font, max(round(width * 0.036), 11))
+    small = load_font(font, max(round(width * 0.028), 10))
     texts = [panel.caption if font else plain(panel.caption) for panel in panels]
     texts = [wrapped(text, letters, 0.94 * width) for text in texts]
     line = round(letters.size * 1.3)

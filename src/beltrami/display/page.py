@@ -11,11 +11,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_function, whole
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.display.page_bundle import page_html
 from beltrami.display.page_contents import Wanted, page_contents
+from beltrami.display.page_maps import own_coordinates
+from beltrami.display.page_picture import page_picture
+from beltrami.display.texture import is_pattern
 from beltrami.errors import BeltramiError, DimensionError, MeshError, check_name, shown
 from beltrami.io.atomic import replacing
+from beltrami.io.picture import Picture
 from beltrami.mesh.door import require_mesh
 from beltrami.mesh.geometry import in_space
 from beltrami.mesh.mesh import Mesh
@@ -50,6 +55,7 @@ class Page:
     notes: tuple[str, ...]
 
 
+@checked
 def page(
     mesh: Mesh,
     path: str | os.PathLike[str],
@@ -62,6 +68,7 @@ def page(
     noise: float = 0.2,
     up: str = "y",
     unit: str = "",
+    texture: Picture | None = None,
     progress: Progress | None = None,
 ) -> Page:
     r"""Write one HTML file in which the mesh can be turned and its functions computed.
@@ -70,10 +77,10 @@ def page(
     \varphi_i` on the graphics card (WebGL2, also in software): eigenfunctions and their zeros,
     heat and waves from a point that is clicked, the shape of the first M terms, filters drawn by
     hand, smoothing and exaggerating, the quadratic regulariser; besides a map to the plane with
-    its distortion, and the mesh beside a noisy and a denoised copy. Nothing is loaded from
-    anywhere: the policy of the page forbids it. The address ``page.html#heat`` opens that panel; in
-    the console of the browser ``beltrami.values()`` and ``beltrami.positions()`` are the numbers
-    behind the picture, in the order ``beltrami.app.data.numbers`` of the vertices.
+    its distortion and a texture, and the mesh beside a noisy and a denoised copy. Nothing is
+    loaded from anywhere: the policy of the page forbids it. The address ``page.html#heat`` opens
+    that panel; in the console of the browser ``beltrami.values()`` and ``beltrami.positions()`` are
+    the numbers behind the picture, in the order ``beltrami.app.data.numbers`` of the vertices.
 
     Chapter items: F3.1, F3.7.
 
@@ -99,6 +106,10 @@ def page(
         The axis that is vertical at first.
     unit
         The unit of length, for the axes: ``"mm"``.
+    texture
+        A picture on the mesh, which the page then opens with: a file, or an array (h, w, 3) or
+        (h, w), as in ``render``. It lies where ``corner_uv`` says, and once over the map to the
+        plane, on faces without ``corner_uv`` not at all. ``"checkerboard"`` for squares alone.
     progress
         Called with (parts done, parts in all).
 
@@ -112,15 +123,18 @@ def page(
         If the mesh or a function is not what a Laplacian needs, or has more than three dimensions.
     UnknownNameError, MeshError, BeltramiError
         If an option has no such value; if the mean edge or a function is below 1e-15 or above 1e15,
-        or an edge or the noise too large for the mean edge.
+        or an edge or the noise too large for the mean edge; if there is no place for a texture.
+    FileFormatError, FileNotFoundError
+        If the texture is no picture, or not there.
 
     Notes
     -----
     Numbers are rounded: eigenvectors to 1/254 of their largest value or finer, such that the shape
     is off by about 1.5 % of the mean edge, functions to 1/508 of their range, positions to 0.5 %
-    of the mean edge. Size for 64 modes of three Laplacians: less than 3 MB with 35,000 vertices (a
-    test weighs it). Cost: that of the eigenpairs, one ``parameterize`` and one ``denoise``, which
-    takes longest.
+    of the mean edge, texture coordinates to 1/16384 of a picture. A texture takes 200 kB at most:
+    what is larger becomes a JPEG, or coarser, and a note says so. Size for 64 modes of three
+    Laplacians: less than 3 MB with 35,000 vertices (a test weighs it). Cost: that of the
+    eigenpairs, one ``parameterize`` and one ``denoise``, which takes longest.
 
     Examples
     --------
@@ -148,7 +162,17 @@ def page(
     if not 0 <= noise < np.inf:
         raise BeltramiError(f"noise is {shown(noise)}, where a finite number >= 0 is needed")
     axis = check_name("axis", up, _AXES)
-    wanted = Wanted(whole("modes", modes, 1, _MOST_MODES), kinds, plane, float(noise), axis, unit)
+    _require_place(mesh, plane, texture)
+    wanted = Wanted(
+        whole("modes", modes, 1, _MOST_MODES),
+        kinds,
+        plane,
+        float(noise),
+        axis,
+        str(unit),
+        texture is not None,
+        None if texture is None or is_pattern(texture) else page_picture(texture),
+    )
     functions = _own(mesh, axis) | _given(f, mesh.n_vertices)
     parts = len(kinds) + 4
     done = 0
@@ -160,13 +184,22 @@ def page(
             progress(done, parts)
 
     contents = page_contents(mesh, functions, wanted, tell)
-    title = title or file.stem
+    title = str(title) or file.stem
     header = {"title": title, **contents.header}
     text = page_html(title, header, contents.sections.packed()).encode()
     with replacing(file) as out:
         out.write(text)
     tell()
     return Page(file, len(text), contents.notes)
+
+
+def _require_place(mesh: Mesh, plane: bool, texture: Picture | None) -> None:
+    """Refuse a texture if no map is to be in the page."""
+    if texture is not None and own_coordinates(mesh) is None and not plane:
+        raise MeshError(
+            "a texture on a mesh without texture coordinates, in a page without a map",
+            remedy="Leave out plane=False, or give a mesh with corner_uv.",
+        )
 
 
 def _own(mesh: Mesh, up: str) -> dict[str, Floats]:

@@ -118,6 +118,11 @@ class Sections:
         self.entries.append({"name": name, "rows": rows, "columns": columns, "planes": planes})
         self.parts.append(data)
 
+    def add_bytes(self, name: str, data: bytes) -> None:
+        """Append bytes that mean something to others, such as a picture."""
+        self.entries.append({"name": name, "rows": len(data), "columns": 1, "planes": 1})
+        self.parts.append(data)
+
     def packed(self) -> bytes:
         """Return all bytes, deflated (RFC 1951, without a header)."""
         planes = [

@@ -8,17 +8,17 @@ from typing import Any
 
 import numpy as np
 
-from beltrami._arrays import Floats, Integers
+from beltrami._arrays import Floats
 from beltrami.diffusion.denoise import denoise
 from beltrami.display.colormaps import COLORMAPS, color_table
 from beltrami.display.page_codes import Guesses, Sections, face_residuals, guesses_of, quantized
+from beltrami.display.page_maps import made_map, own_coordinates, own_map
 from beltrami.display.page_order import Order, order_of
+from beltrami.display.page_picture import PagePicture
 from beltrami.errors import BeltramiError
 from beltrami.mesh.geometry import in_space
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.laplacian import laplacian
-from beltrami.parameterization.parameterization import Parameterization
-from beltrami.parameterization.parameterize import parameterize
 from beltrami.spectrum.basis import FourierBasis
 from beltrami.spectrum.fourier_basis import fourier_basis
 
@@ -26,7 +26,6 @@ COLOURS = 127  # levels on each side of 0, at least, of an eigenvector: what col
 _FINEST = 8191  # levels at most, so that residuals fit into two bytes
 _ERROR = 0.01  # of the mean edge: what rounding one eigenvector may move the shape by
 _PLACE = 0.005  # of the mean edge: the steps of positions
-_FLAT = 1 / 8192  # of the width of the map: the steps of the coordinates in the plane
 _SEED = 1
 
 
@@ -40,6 +39,8 @@ class Wanted:
     noise: float
     up: str
     unit: str
+    textured: bool = False
+    picture: PagePicture | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,16 +99,17 @@ def page_contents(
     for kind in wanted.laplacians:
         _add_spectrum(sections, header, guesses, mesh, kind, functions, order, wanted.modes)
         tell()
-    header["plane"] = _plane(sections, mesh, order, wanted, edge)
+    header |= _maps(sections, mesh, order, wanted)
     tell()
     header["comparison"] = _comparison(sections, mesh, order, wanted, edge)
     tell()
     parts = (("the map to the plane", "plane"), ("the comparison of noise", "comparison"))
-    notes = tuple(
+    notes = [
         f"without {what}: {header[key]['reason']}" for what, key in parts if "reason" in header[key]
-    )
+    ]
+    notes += _add_picture(sections, header, wanted.picture)
     header["sections"] = sections.entries
-    return Contents(header, sections, notes)
+    return Contents(header, sections, tuple(notes))
 
 
 def _add_functions(
@@ -181,59 +183,27 @@ def _together(basis: FourierBasis, positions: Floats) -> Floats:
     return np.asarray(np.sqrt((basis.error_decay(positions) ** 2).sum(axis=1)))
 
 
-def _plane(
-    sections: Sections, mesh: Mesh, order: Order, wanted: Wanted, edge: float
-) -> dict[str, Any]:
-    """Append a map to the plane, or return why there is none."""
-    if not wanted.plane:
-        return {"reason": "it was not asked for."}
-    try:
-        found = parameterize(mesh)
-    except BeltramiError as error:
-        return {"reason": str(error)}
-    number, faces = _copies(found, order, mesh.n_vertices)
-    uv = np.empty_like(found.uv)
-    uv[number] = found.uv
-    origin = uv.min(axis=0)
-    step = float((uv.max(axis=0) - origin).max()) * _FLAT
-    changed = np.flatnonzero(faces.ravel() != order.faces.ravel())
-    copy_of = np.empty(len(uv), np.int64)
-    copy_of[faces.ravel()] = order.faces.ravel()
-    extra = copy_of[mesh.n_vertices :]
-    sections.add("seam corners", np.diff(changed, prepend=0)[:, None])
-    sections.add("seam vertices", np.diff(faces.ravel()[changed], prepend=0)[:, None])
-    sections.add("seam copies", np.diff(extra, prepend=0)[:, None])
-    guesses = guesses_of(faces, len(uv))
-    sections.add("plane", guesses.residuals(quantized(uv - origin, np.full(2, step))))
-    distortion = found.distortion
-    return {
-        "method": found.method,
-        "bijective": found.is_bijective,
-        "flipped": len(found.flipped),
-        "cut": len(found.cut_edges),
-        "step": step,
-        "origin": origin.tolist(),
-        "conformal": distortion.mean_conformal,
-        "area": distortion.mean_area,
-        "dirichlet": distortion.symmetric_dirichlet,
-        "edge": edge,
-    }
+def _maps(sections: Sections, mesh: Mesh, order: Order, wanted: Wanted) -> dict[str, Any]:
+    """Append the map that is made, and the coordinates of the mesh if a texture is to lie on it."""
+    made = made_map(sections, mesh, order) if wanted.plane else {"reason": "it was not asked for."}
+    uv = own_coordinates(mesh) if wanted.textured else None
+    own = None if uv is None else own_map(sections, mesh, order, uv)
+    return {"plane": made, "own": own, "textured": wanted.textured}
 
 
-def _copies(found: Parameterization, order: Order, n: int) -> tuple[Integers, Integers]:
-    """Give each vertex of the cut mesh a number, the first copy of one that of the original.
-
-    Returns the number of each vertex of the cut mesh, and the faces in the order of the page.
-    """
-    faces = found.mesh.faces.ravel()[order.corners]
-    page = np.empty(n, np.int64)
-    page[order.vertices] = np.arange(n)
-    original = page[found.vertex_map]
-    firsts = np.unique(original, return_index=True)[1]
-    extra = np.setdiff1d(np.arange(len(original)), firsts)
-    number = original.copy()
-    number[extra] = n + np.arange(len(extra))
-    return number, number[faces].reshape(-1, 3)
+def _add_picture(
+    sections: Sections, header: dict[str, Any], picture: PagePicture | None
+) -> list[str]:
+    """Append the picture that lies on a map; return what there is to say of it."""
+    header["picture"] = None
+    if picture is None:
+        return []
+    if header["own"] is None and "reason" in header["plane"]:
+        return ["without the texture: there is no map to lay it on."]
+    sections.add_bytes("picture", picture.data)
+    width, height = picture.size
+    header["picture"] = {"kind": picture.kind, "width": width, "height": height}
+    return [f"the texture {picture.note}."] if picture.note else []
 
 
 def _comparison(

@@ -7,6 +7,7 @@ from os import PathLike
 
 from numpy.typing import ArrayLike
 
+from beltrami._kinds import checked
 from beltrami.display.camera import Camera
 from beltrami.display.compose import compose
 from beltrami.display.draw import draw_panel
@@ -20,6 +21,7 @@ from beltrami.io.picture import Picture
 from beltrami.mesh.mesh import Mesh
 
 
+@checked
 def render(
     mesh: Mesh | Sequence[Mesh],
     f: ArrayLike | Sequence[ArrayLike | None] | None = None,

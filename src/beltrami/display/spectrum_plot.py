@@ -9,19 +9,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, as_function
+from beltrami._arrays import Floats, Integers, as_function, whole
+from beltrami._kinds import checked
 from beltrami._optional import require
 from beltrami.display.images import check_suffix, write_image
 from beltrami.display.srgb import Image
-from beltrami.errors import BeltramiError
+from beltrami.errors import BeltramiError, MeshError, shown
 from beltrami.spectrum.basis import FourierBasis
 
 _BANDS_PER_OCTAVE = 2  # of λ, over which the lines take root mean squares
 _DPI = 100
+_SMALLEST, _LARGEST = 200, 20_000  # pixels
 _COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00")
+_FEW = 3  # coefficients below which a mean says nothing
 _FLOOR = 1e-18  # of the largest coefficient: what is below is drawn there
 
 
+@checked
 def plot_spectrum(
     basis: FourierBasis,
     functions: Mapping[str, ArrayLike],
@@ -32,9 +36,9 @@ def plot_spectrum(
     r"""Draw spectra :math:`|\langle f, \varphi_i\rangle_B|` of functions over :math:`\lambda_i`.
 
     Both axes are logarithmic, so that the power laws of smoothness are straight lines. Dots are
-    coefficients; lines are their root mean squares over half octaves, which unlike single
-    coefficients do not depend on the basis chosen in an eigenspace. The constant modes, λ = 0, are
-    left out.
+    coefficients; lines are their root mean squares over half octaves, or more where these have
+    few, which unlike single coefficients do not depend on the basis chosen in an eigenspace. The
+    constant modes, λ = 0, are left out.
 
     Chapter items: F3.8, P61.
 
@@ -81,21 +85,34 @@ def plot_spectrum(
 
 
 def band_means(eigenvalues: Floats, magnitudes: Floats) -> tuple[Floats, Floats]:
-    """Root mean squares of coefficients over half octaves of the eigenvalues, which ascend.
+    """Root mean squares of coefficients over bands of the eigenvalues, which ascend.
 
-    Returns the geometric mean of the eigenvalues of each band that has any, and the means.
+    Bands are half octaves; those of fewer than three eigenvalues are joined with the next ones.
+    Returns the geometric mean of the eigenvalues of each band, and the means.
 
     Examples
     --------
-    >>> at, mean = band_means(np.array([1.0, 1.1, 2.0, 8.0]), np.array([3.0, 4.0, 2.0, 1.0]))
+    >>> at, mean = band_means(np.array([1, 1.1, 2, 2.1, 8, 8, 8]), np.array([3, 4, 2, 0, 1, 1, 1]))
     >>> at.round(3).tolist(), mean.round(3).tolist()
-    ([1.049, 2.0, 8.0], [3.536, 2.0, 1.0])
+    ([1.466, 8.0], [2.693, 1.0])
     """
     steps = _BANDS_PER_OCTAVE * np.log2(eigenvalues / eigenvalues[0]) + 1e-9
-    _, band = np.unique(np.floor(steps), return_inverse=True)
+    _, octave = np.unique(np.floor(steps), return_inverse=True)
+    band = _joined(np.bincount(octave))[octave]
     count = np.bincount(band)
     at = np.exp(np.bincount(band, np.log(eigenvalues)) / count)
     return at, np.sqrt(np.bincount(band, magnitudes**2) / count)
+
+
+def _joined(counts: Integers) -> Integers:
+    """Return the number of the band of each half octave; what is left at the end joins the last."""
+    band, numbers, held = 0, [], 0
+    for count in counts.tolist():
+        numbers.append(band)
+        held += count
+        if held >= _FEW:
+            band, held = band + 1, 0
+    return np.minimum(numbers, max(band - 1, 0) if held else band)
 
 
 def _magnitudes(basis: FourierBasis, f: Floats) -> Floats:
@@ -105,12 +122,20 @@ def _magnitudes(basis: FourierBasis, f: Floats) -> Floats:
     return np.asarray(np.linalg.norm(coefficients, axis=1))
 
 
+def _pixels(size: tuple[int, int]) -> tuple[int, int]:
+    """Return width and height, with room for the letters on the axes."""
+    try:
+        width, height = size
+    except (TypeError, ValueError) as cause:
+        raise MeshError(f"size is {shown(size)} where (width, height) is needed") from cause
+    return whole("width", width, _SMALLEST, _LARGEST), whole("height", height, _SMALLEST, _LARGEST)
+
+
 def _draw(eigenvalues: Floats, spectra: Mapping[str, Floats], size: tuple[int, int]) -> Image:
     figure_of: Any = require("matplotlib.figure", "plot", "plots of spectra")
     agg: Any = require("matplotlib.backends.backend_agg", "plot", "plots of spectra")
-    figure = figure_of.Figure(
-        figsize=(size[0] / _DPI, size[1] / _DPI), dpi=_DPI, layout="constrained"
-    )
+    width, height = _pixels(size)
+    figure = figure_of.Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI, layout="constrained")
     canvas = agg.FigureCanvasAgg(figure)
     axes = figure.add_subplot()
     highest = max(float(values.max()) for values in spectra.values())

@@ -78,7 +78,10 @@ def as_color(color: Color, what: str = "the colour") -> Floats:
             return np.array(ImageColor.getrgb(color)[:3]) / 255.0
         except ValueError as cause:
             raise MeshError(f"{what} {shown(color)} is not a colour", remedy=remedy) from cause
-    values = np.array(color, dtype=np.float64)
+    try:
+        values = np.array(color, dtype=np.float64)
+    except (TypeError, ValueError) as cause:
+        raise MeshError(f"{what} {shown(color)} is not a colour", remedy=remedy) from cause
     if values.shape != (3,) or not ((values >= 0) & (values <= 1)).all():
         raise MeshError(f"{what} {shown(color)} is not a colour", remedy=remedy)
     return values

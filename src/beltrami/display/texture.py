@@ -65,13 +65,26 @@ def make_texture(mesh: Mesh, picture: Picture) -> Texture:
             remedy="Draw parameterize(mesh).textured or atlas(mesh).mesh.",
         )
     uv = np.where(finite[..., None], uv, np.nan)
-    if isinstance(picture, str) and Path(picture).suffix == "":
-        check_name("texture", picture, PATTERNS)
+    if is_pattern(picture):
         known = uv[finite]
         low, extent = known.min(axis=0), float(np.ptp(known, axis=0).max())
         tile = checkerboard(_TILE, 2)
         return Texture((uv - low) / (extent or 1.0) * (SQUARES / 2), *_halves(tile))
     return Texture(uv, *_halves(as_picture(picture)))
+
+
+def is_pattern(picture: Picture) -> bool:
+    """Tell whether a picture is named, not given: a text without a suffix is the name of a pattern.
+
+    Raises
+    ------
+    UnknownNameError
+        If there is no such pattern.
+    """
+    if not isinstance(picture, str) or Path(picture).suffix:
+        return False
+    check_name("texture", picture, PATTERNS)
+    return True
 
 
 def checkerboard(size: int = 1024, squares: int = SQUARES) -> Floats:

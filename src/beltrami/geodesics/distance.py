@@ -5,6 +5,7 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats
+from beltrami._kinds import checked
 from beltrami.errors import BeltramiError, check_name
 from beltrami.geodesics.edge_paths import edge_distance
 from beltrami.geodesics.exact import exact_distance
@@ -16,6 +17,7 @@ from beltrami.operators.soundness import refuse_unreferenced, require_sound
 DISTANCE_METHODS = ("heat", "exact", "edges")
 
 
+@checked
 def geodesic_distance(
     mesh: Mesh,
     sources: ArrayLike,
@@ -71,7 +73,7 @@ def geodesic_distance(
     if method == "heat":
         prepared = HeatMethod(mesh, time=time, intrinsic=intrinsic, boundary=boundary)
         return prepared.distance(sources)
-    if time is not None or not intrinsic or boundary != "neumann":
+    if time is not None or not intrinsic or str(boundary) != "neumann":
         raise BeltramiError(
             f"time, intrinsic and boundary belong to the heat method, not to {method!r}"
         )

@@ -13,6 +13,7 @@ from scipy.sparse import csr_array
 from beltrami._arrays import Booleans, Floats, Integers
 from beltrami._frozen import Frozen
 from beltrami._jit import kernel
+from beltrami._kinds import checked
 from beltrami.errors import BeltramiError, ConvergenceError, check_name, shown
 from beltrami.geodesics.sources import checked_sources
 from beltrami.mesh.connectivity import component_labels
@@ -79,6 +80,7 @@ class HeatMethod(Frozen):
     intrinsic: bool
     boundary: str
 
+    @checked
     def __init__(
         self,
         mesh: Mesh,

@@ -6,6 +6,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats, as_function
+from beltrami._kinds import checked
 from beltrami.grids import kernels
 from beltrami.grids.differences import grid_gradient
 from beltrami.grids.eigenvalues import grid_eigenvalues
@@ -209,6 +210,7 @@ class Grid(Points):
         """
         return grid_eigenvalues(self._axes, kinds(weights, mass))
 
+    @checked
     def fourier_modes(
         self,
         k: int | None = None,
@@ -253,6 +255,7 @@ class Grid(Points):
         """
         return grid_modes(self._axes, kinds(weights, mass), k, real)
 
+    @checked
     def averaging_limit(
         self, f: ArrayLike, weights: str = "combinatorial", *, lazy: bool = False
     ) -> AveragingLimit:

@@ -14,7 +14,10 @@ from beltrami._arrays import Floats
 from beltrami._optional import require
 from beltrami.errors import FileFormatError, MissingExtraError
 from beltrami.io.faces import fan, first_outside
+from beltrami.io.packed_inside import require_room
 from beltrami.io.picture import Picture, as_pillow
+from beltrami.io.source import plain_file
+from beltrami.io.unpacking import Room, room_of
 from beltrami.mesh.mesh import Mesh
 
 _MESHIO = (".vtk", ".vtu", ".msh", ".mesh", ".inp")
@@ -24,7 +27,7 @@ _UV = "texture coordinates of a package"  # among the vertex data, until the mes
 _FREESURFER = (".pial", ".white", ".inflated", ".sphere", ".orig", ".smoothwm")
 
 
-def read(path: str | os.PathLike[str], suffix: str) -> Mesh:
+def read(path: str | os.PathLike[str], suffix: str, max_bytes: int | None = None) -> Mesh:
     """Read a mesh through the package for this suffix.
 
     Raises
@@ -35,16 +38,17 @@ def read(path: str | os.PathLike[str], suffix: str) -> Mesh:
         If the package is not installed.
     """
     place = Path(path)
-    if place.is_dir():
-        raise FileFormatError(place, "expected a file, found a directory. Name a file in it")
-    place.open("rb").close()  # FileNotFoundError says more than the packages do
-    try:
-        vertices, faces, data = READERS[suffix](place)
-    except (FileFormatError, MissingExtraError):
-        raise
-    except (Exception, SystemExit) as cause:  # the packages raise anything on a broken file
-        reason = f"{type(cause).__name__}: {cause}"
-        raise FileFormatError(place, f"expected a {suffix} file ({reason})") from cause
+    with plain_file(place, suffix, max_bytes) as plain:
+        room = room_of(place, plain.stat().st_size, max_bytes)
+        try:
+            vertices, faces, data = READERS[suffix](plain, room)
+        except MissingExtraError:
+            raise
+        except FileFormatError as error:  # of a copy, perhaps
+            raise FileFormatError(place, error.problem) from error
+        except (Exception, SystemExit) as cause:  # the packages raise anything on a broken file
+            reason = f"{type(cause).__name__}: {cause}"
+            raise FileFormatError(place, f"expected a {suffix} file ({reason})") from cause
     return _checked(place, np.asarray(vertices, np.float64), np.asarray(faces), data)
 
 
@@ -66,20 +70,22 @@ def _checked(place: Path, vertices: Any, faces: Any, data: dict[str, Any]) -> Me
     return Mesh(vertices, corners, kept, uv)
 
 
-def _read_gifti(place: Path) -> Any:
+def _read_gifti(place: Path, room: Room) -> Any:
     nibabel = require("nibabel", "io", "reading GIFTI")
+    require_room(place, ".gii", room)
     points, triangles = nibabel.load(place).agg_data(("pointset", "triangle"))
     return points, triangles, {}
 
 
-def _read_freesurfer(place: Path) -> Any:
+def _read_freesurfer(place: Path, _room: Room) -> Any:
     freesurfer = require("nibabel.freesurfer", "io", "reading FreeSurfer surfaces")
     return (*freesurfer.read_geometry(place), {})
 
 
-def _read_meshio(place: Path) -> Any:
+def _read_meshio(place: Path, room: Room) -> Any:
     meshio = require("meshio", "io", f"reading {place.suffix}")
-    found = meshio.read(place)
+    require_room(place, place.suffix.lower(), room)
+    found = _by_meshio(meshio, place)
     blocks = [b.data for b in found.cells if b.type in ("triangle", "quad", "polygon")]
     pieces = [
         fan(np.concatenate(b).astype(np.int64), np.array([len(c) for c in b])) for b in blocks
@@ -88,7 +94,18 @@ def _read_meshio(place: Path) -> Any:
     return found.points, faces, found.point_data
 
 
-def _read_trimesh(place: Path) -> Any:
+def _by_meshio(meshio: Any, place: Path) -> Any:
+    """Read in the first of the formats of this suffix that fits; ``meshio.read`` would print."""
+    reasons = []
+    for name in meshio.extension_to_filetypes[place.suffix.lower()]:
+        try:
+            return getattr(meshio, name).read(str(place))
+        except meshio.ReadError as error:
+            reasons.append(f"{name}: {error}")
+    raise FileFormatError(place, f"expected a {place.suffix} file ({'; '.join(reasons)})")
+
+
+def _read_trimesh(place: Path, _room: Room) -> Any:
     trimesh = require("trimesh", "io", f"reading {place.suffix}")
     scene = trimesh.load_scene(place, process=False)
     whole = scene.to_mesh()
@@ -146,7 +163,7 @@ def encode_textured(
     return bytes(whole.export(file_type=suffix[1:]))
 
 
-READERS: dict[str, Callable[[Path], Any]] = {
+READERS: dict[str, Callable[[Path, Room], Any]] = {
     ".gii": _read_gifti,
     **dict.fromkeys(_FREESURFER, _read_freesurfer),
     **dict.fromkeys(_MESHIO, _read_meshio),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gzip
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -11,16 +10,22 @@ from typing import Any
 import numpy as np
 
 from beltrami._arrays import Floats
+from beltrami._kinds import checked
 from beltrami._optional import require
 from beltrami.errors import FileFormatError, MissingExtraError, check_name
+from beltrami.io.packed_inside import require_room
 from beltrami.io.registry import READERS, read_mesh, suffix_of
-from beltrami.io.source import load
+from beltrami.io.source import load, plain_file
 from beltrami.io.table import read_table
+from beltrami.io.unpacking import Room, gunzipped, room_of
 
 _TEXT = (".txt", ".csv", ".dat", ".tsv")
 
 
-def read_function(path: str | os.PathLike[str], name: str | None = None) -> Floats:
+@checked
+def read_function(
+    path: str | os.PathLike[str], name: str | None = None, *, max_bytes: int | None = None
+) -> Floats:
     r"""Read a function on the vertices, one row for each: (n,) or (n, c) float64.
 
     Chapter items: D5.
@@ -34,6 +39,8 @@ def read_function(path: str | os.PathLike[str], name: str | None = None) -> Floa
     name
         Which vertex data of a mesh, or which column of a text file whose first line names them;
         not needed where there is only one.
+    max_bytes
+        What a compressed file may unpack to: see ``read_mesh``.
 
     Raises
     ------
@@ -55,33 +62,32 @@ def read_function(path: str | os.PathLike[str], name: str | None = None) -> Floa
     ...     read_function(place).tolist()
     [0.5, 1.5]
     """
-    suffix = suffix_of(path, None, (".npy", *_TEXT, *READERS, *_OTHERS))
+    suffix = suffix_of(path, None, (*_TEXT, *READERS, *_OTHERS))
     place = Path(path)
     if suffix in _TEXT:
-        return read_table(load(place), name)
+        return read_table(load(place, max_bytes), name)
     if suffix in READERS:
-        data = read_mesh(place).vertex_data
+        data = read_mesh(place, max_bytes=max_bytes).vertex_data
         if not data:
             raise FileFormatError(place, "expected data on the vertices, found only a mesh")
         if name is None and len(data) == 1:
             name = next(iter(data))
         values = data[check_name("vertex data", name, tuple(data))]
     else:
-        if place.is_dir():
-            raise FileFormatError(place, "expected a file, found a directory. Name a file in it")
-        place.open("rb").close()  # FileNotFoundError says more than the packages do
-        values = _foreign(place, suffix)
+        values = _foreign(place, suffix, max_bytes)
     return _checked(place, values)
 
 
-def _foreign(place: Path, suffix: str) -> Any:
-    try:
-        return np.load(place, allow_pickle=False) if suffix == ".npy" else _OTHERS[suffix](place)
-    except MissingExtraError:
-        raise
-    except Exception as cause:  # the packages raise anything on a broken file
-        reason = f"{type(cause).__name__}: {cause}"
-        raise FileFormatError(place, f"expected a {suffix} file ({reason})") from cause
+def _foreign(place: Path, suffix: str, max_bytes: int | None) -> Any:
+    with plain_file(place, suffix, max_bytes) as plain:
+        room = room_of(place, plain.stat().st_size, max_bytes)
+        try:
+            return _OTHERS[suffix](plain, room)
+        except (FileFormatError, MissingExtraError):
+            raise
+        except Exception as cause:  # the packages raise anything on a broken file
+            reason = f"{type(cause).__name__}: {cause}"
+            raise FileFormatError(place, f"expected a {suffix} file ({reason})") from cause
 
 
 def _checked(place: Path, values: Any) -> Floats:
@@ -97,8 +103,13 @@ def _checked(place: Path, values: Any) -> Floats:
     return result
 
 
-def _read_gifti(place: Path) -> Any:
+def _read_npy(place: Path, _room: Room) -> Any:
+    return np.load(place, allow_pickle=False)
+
+
+def _read_gifti(place: Path, room: Room) -> Any:
     nibabel = require("nibabel", "io", "reading GIFTI")
+    require_room(place, ".gii", room)
     geometry = {"NIFTI_INTENT_POINTSET", "NIFTI_INTENT_TRIANGLE"}
     codes = {nibabel.nifti1.intent_codes[name] for name in geometry}
     arrays = [a.data for a in nibabel.load(place).darrays if a.intent not in codes]
@@ -107,22 +118,23 @@ def _read_gifti(place: Path) -> Any:
     return arrays[0] if len(arrays) == 1 else np.stack(arrays, axis=1)
 
 
-def _read_morphometry(place: Path) -> Any:
+def _read_morphometry(place: Path, _room: Room) -> Any:
     freesurfer = require("nibabel.freesurfer", "io", "reading FreeSurfer data")
     return freesurfer.read_morph_data(place)
 
 
-def _read_mgh(place: Path) -> Any:
+def _read_mgh(place: Path, room: Room) -> Any:
     nibabel = require("nibabel", "io", "reading FreeSurfer volumes")
     content = place.read_bytes()
     if content.startswith(b"\x1f\x8b"):  # .mgz
-        content = gzip.decompress(content)
+        content = gunzipped(np.frombuffer(content, np.uint8), room.path, room.take).tobytes()
     values = np.asarray(nibabel.MGHImage.from_bytes(content).dataobj)
     rows = values.reshape(len(values), -1)  # (n, 1, 1) or (n, 1, 1, frames)
     return rows[:, 0] if rows.shape[1] == 1 else rows
 
 
-_OTHERS: dict[str, Callable[[Path], Any]] = {
+_OTHERS: dict[str, Callable[[Path, Room], Any]] = {
+    ".npy": _read_npy,
     ".gii": _read_gifti,
     **dict.fromkeys((".curv", ".sulc", ".thickness", ".area"), _read_morphometry),
     **dict.fromkeys((".mgh", ".mgz"), _read_mgh),

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_floats, require_finite
+from beltrami._kinds import checked
 from beltrami.errors import (
     DimensionError,
     EmptyMeshError,
@@ -49,7 +50,13 @@ TEXTURED = (".obj", *extras.TEXTURED)
 _FLOAT32_MAX = float(np.finfo(np.float32).max)
 
 
-def read_mesh(path: str | os.PathLike[str], format: str | None = None) -> Mesh:  # noqa: A002 - the public name
+@checked
+def read_mesh(
+    path: str | os.PathLike[str],
+    format: str | None = None,  # noqa: A002 - the public name
+    *,
+    max_bytes: int | None = None,
+) -> Mesh:
     r"""Read a triangle mesh from a file.
 
     OBJ, OFF, PLY and STL are read here, checked byte by byte; the extra ``io`` adds GIFTI,
@@ -64,6 +71,9 @@ def read_mesh(path: str | os.PathLike[str], format: str | None = None) -> Mesh: 
     format
         A suffix such as ``".obj"`` where the name of the file does not tell; upper case, or the
         dot left out, make no difference.
+    max_bytes
+        What a compressed file may unpack to; by default 256 MiB, or 100 times its size if that
+        is more, so that a few bytes cannot fill the memory.
 
     Returns
     -------
@@ -77,7 +87,8 @@ def read_mesh(path: str | os.PathLike[str], format: str | None = None) -> Mesh: 
     UnknownNameError
         If the suffix is not known; it lists those that are.
     FileFormatError
-        If the file is not what its format promises; it names the line or the byte.
+        If the file is not what its format promises; it names the line or the byte. Also if it
+        unpacks to more than ``max_bytes``.
     MissingExtraError
         If the format needs a package that is not installed.
 
@@ -94,10 +105,11 @@ def read_mesh(path: str | os.PathLike[str], format: str | None = None) -> Mesh: 
         raise FileFormatError(path, "expected a file, found a directory. Name a file in it")
     suffix = suffix_of(path, format, (*READERS, *extras.READERS))
     if suffix in READERS:
-        return READERS[suffix](load(path))
-    return extras.read(path, suffix)
+        return READERS[suffix](load(path, max_bytes))
+    return extras.read(path, suffix, max_bytes)
 
 
+@checked
 def write_mesh(
     path: str | os.PathLike[str],
     mesh: Mesh,
@@ -191,7 +203,7 @@ def suffix_of(path: str | os.PathLike[str], form: str | None, known: tuple[str, 
     ('.obj', '.obj')
     """
     if form is not None:
-        return check_name("format", "." + form.lower().lstrip("."), known)
+        return check_name("format", "." + str(form).lower().lstrip("."), known)
     place = Path(os.fspath(path).lower())
     if place.suffix == ".gz":
         place = place.with_suffix("")

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import gzip
 import os
-import zlib
+import tempfile
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beltrami.errors import FileFormatError
+from beltrami.io.unpacking import gunzipped, room_of
 
 _SHOWN = 40  # of the bytes at fault
 _BLOCK = 1 << 20  # bytes read at a time: they stay in the processor's cache
@@ -113,7 +114,7 @@ def _last_line(text: bytearray, end: int) -> int:
             return end + 1
 
 
-def load(path: str | os.PathLike[str]) -> Source:
+def load(path: str | os.PathLike[str], max_bytes: int | None = None) -> Source:
     """Open a file; one whose name ends in ``.gz`` is decompressed.
 
     Raises
@@ -121,7 +122,8 @@ def load(path: str | os.PathLike[str]) -> Source:
     FileNotFoundError
         If there is no such file.
     FileFormatError
-        If it is a directory, or not the gzip file that its name promises.
+        If it is a directory, or not the gzip file that its name promises, or a bomb: see
+        ``room_of``.
     """
     place = Path(path)
     if place.is_dir():
@@ -129,11 +131,22 @@ def load(path: str | os.PathLike[str]) -> Source:
     if place.suffix.lower() != ".gz":
         with place.open("rb"):  # what cannot be opened is known here
             return Source(place)
-    try:
-        content = gzip.decompress(place.read_bytes())
-    except (EOFError, zlib.error, gzip.BadGzipFile) as cause:
-        raise FileFormatError(place, f"expected a whole gzip file ({cause})") from cause
-    return Source(place, np.frombuffer(content, np.uint8))
+    packed = np.fromfile(place, np.uint8)
+    room = room_of(place, len(packed), max_bytes)
+    return Source(place, gunzipped(packed, place, room.take))
+
+
+@contextmanager
+def plain_file(path: Path, suffix: str, max_bytes: int | None = None) -> Iterator[Path]:
+    """Yield the name of the file, or of a decompressed copy, for packages that read files only."""
+    source = load(path, max_bytes)
+    if source.content is None:
+        yield path
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        whole = Path(folder, f"mesh{suffix}")
+        whole.write_bytes(source.content.data)
+        yield whole
 
 
 def trimmed(array: NDArray[Any], rows: int) -> NDArray[Any]:

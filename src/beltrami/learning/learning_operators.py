@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 
 from beltrami._arrays import whole
+from beltrami._kinds import checked
 from beltrami.errors import check_name
 from beltrami.learning.cache import entry, keep, kept
 from beltrami.learning.operators import LearningOperators
@@ -21,6 +22,7 @@ LEARNING_WEIGHTS = (*SYMMETRIC_WEIGHTS, INTRINSIC, TUFTED)
 LEARNING_MASSES = tuple(kind for kind in MASSES if kind != "consistent")
 
 
+@checked
 def learning_operators(
     mesh: Mesh,
     k: int = 128,

@@ -53,7 +53,7 @@ def cut_along(mesh: Mesh, chosen: Booleans) -> Cut:
     """
     topology = mesh.topology
     sides = topology.face_edges
-    cut = chosen & (topology.half_edges.edge_face_count == 2)
+    cut = chosen & (topology.edge_face_count == 2)
     twins = np.where((sides >= 0) & cut[sides], np.int32(-1), topology.twins)
     root = group_corners(topology.faces, twins, topology.n_vertices).root.reshape(-1, 3)
     n = topology.n_vertices
@@ -63,7 +63,7 @@ def cut_along(mesh: Mesh, chosen: Booleans) -> Cut:
     extra = np.ones(len(fans), np.bool_)
     extra[first] = False
     vertex_map = np.concatenate([np.arange(n), origin[extra]])
-    edges = topology.edges[cut | (topology.half_edges.edge_face_count > 2)]
+    edges = topology.edges[cut | (topology.edge_face_count > 2)]
     if not extra.any():
         return Cut(mesh, read_only(vertex_map), read_only(edges[:0]))
     number = np.where(extra, n + np.cumsum(extra) - 1, origin)
@@ -79,7 +79,7 @@ def shortest_paths(mesh: Mesh, sources: Integers) -> tuple[Floats, Integers]:
     Edges of the boundary are nearly free.
     """
     lengths = np.maximum(mesh.edge_lengths, _FREE * mesh.edge_lengths.max())
-    on_boundary = mesh.topology.half_edges.edge_face_count == 1
+    on_boundary = mesh.topology.edge_face_count == 1
     lengths = np.where(on_boundary, _FREE * lengths.max(), lengths)
     graph = symmetric_matrix(mesh.edges, lengths, mesh.n_vertices)
     distance, before, _ = dijkstra(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,8 +30,10 @@ class HalfEdges(NamedTuple):
         The edge of each side; -1 in a face that names a vertex twice, which has no sides.
     twins : (m, 3) int32
         The half-edge on the other side; ``BOUNDARY`` or ``NOT_MANIFOLD`` where there is not one.
-    edge_face_count : (p,) int32
-        How many faces share each edge.
+    n_boundary : int
+        How many edges have one face.
+    n_crowded : int
+        How many edges have more than two faces.
     disoriented : int
         How many edges with two faces are run through in the same direction by both.
     complete : bool
@@ -41,7 +43,8 @@ class HalfEdges(NamedTuple):
     edges: Integers
     face_edges: NDArray[np.int32]
     twins: NDArray[np.int32]
-    edge_face_count: NDArray[np.int32]
+    n_boundary: int
+    n_crowded: int
     disoriented: int
     complete: bool
 
@@ -61,29 +64,48 @@ def pair_sides(faces: Integers, n: int) -> HalfEdges:
     [[5, -1, -1], [-1, -1, 0]]
     """
     m = len(faces)
+    boundary = max(2 * n - m, 0)  # as many edges as a disk of these counts has there
     corners = unsigned(faces)
-    by_low, by_high = np.zeros(n, np.uint32), np.zeros(n, np.uint32)
-    total = int(_count_sides(corners, by_low, by_high))
-    edges = np.empty((total, 2), np.int64)  # the pages beyond the last edge are never touched
-    ordered = np.empty(total, np.uint64)
-    _sort_sides(corners, by_low, by_high, unsigned(edges).reshape(-1), ordered)
-    face_edges = np.empty((m, 3), np.int32)
-    twins = np.empty((m, 3), np.int32)
-    count = np.empty(total, np.int32)
-    complete = total == 3 * m
-    if not complete:  # faces that name a vertex twice have no sides
-        face_edges[:], twins[:] = -1, BOUNDARY
-    p, disoriented = _number_edges(ordered, by_low, edges, face_edges.ravel(), twins.ravel(), count)
-    arrays = (read_only(edges[:p]), read_only(face_edges), read_only(twins), read_only(count[:p]))
-    return HalfEdges(*arrays, int(disoriented), complete)
+    paired = _paired(corners, n, boundary + m // 5 + 2)
+    if paired is None:
+        paired = cast(HalfEdges, _paired(corners, n, 3 * m))  # room for all sides is enough
+    return paired
 
 
 # The sides are sorted by (smaller vertex, larger vertex) with two stable counting sorts, the
 # larger first: no comparison, and hardly a branch that the processor guesses wrong. A side is
 # packed into one integer: the vertex that still has to be sorted by (after that, the other one)
 # times 2³², plus twice its half-edge, plus 1 if it runs from the smaller to the larger vertex.
-# The buffers come from numpy, which asks for huge pages, because first touches are dear; the
-# array of the edges serves the first sort as well.
+# First touches of memory are dear, and the results have room for the sides: once sorted by the
+# larger vertex they lie where face_edges and twins will be, then where the edges will be.
+
+
+def _paired(corners: Any, n: int, room: int) -> HalfEdges | None:
+    """Pair the sides; None if an edge would be written over sides that are not yet read.
+
+    An edge is as long as two sides. The sorted sides begin ``room`` of them behind the edges,
+    which is enough if no more edges have one side only.
+    """
+    m = len(corners)
+    by_low, by_high = np.zeros((2, n), np.uint32)
+    total = int(_count_sides(corners, by_low, by_high))
+    room = min(room, total)
+    edges = np.empty((total, 2), np.int64)  # the pages beyond the last edge are never touched
+    ends = unsigned(edges).reshape(-1)
+    ordered = ends[room : room + total]
+    of_sides = np.empty((2, m, 3), np.int32)
+    _sort_sides(corners, by_low, by_high, of_sides.reshape(-1).view(np.uint64), ordered)
+    complete = total == 3 * m
+    if not complete:  # faces that name a vertex twice have no sides
+        of_sides[0], of_sides[1] = -1, BOUNDARY
+    face_edges, twins = of_sides
+    p, boundary, crowded, disoriented = _number_edges(
+        ordered, by_low, room, ends, face_edges.ravel(), twins.ravel()
+    )
+    if p < 0:
+        return None
+    arrays = (read_only(edges[:p]), read_only(face_edges), read_only(twins))
+    return HalfEdges(*arrays, int(boundary), int(crowded), int(disoriented), complete)
 
 
 @kernel
@@ -146,20 +168,21 @@ def _sort_sides(faces: Any, by_low: Any, by_high: Any, sides: Any, ordered: Any)
 
 @kernel
 def _number_edges(
-    ordered: Any, by_low: Any, edges: Any, face_edges: Any, twins: Any, count: Any
+    ordered: Any, by_low: Any, room: Any, ends: Any, face_edges: Any, twins: Any
 ) -> Any:
-    """Run through the sorted sides: neighbours with the same ends are the sides of one edge."""
+    """Run through the sorted sides: neighbours with the same ends are the sides of one edge.
+
+    Returns -1 as the number of edges if their ends would come to lie on sides not yet read.
+    """
     one, half, code = np.uint64(1), np.uint64(32), np.uint64(0xFFFFFFFF)
-    n = np.uint64(by_low.size)
+    n, free = np.uint64(by_low.size), np.uint64(room)
     low = p = q = np.uint64(0)
-    disoriented = 0
+    boundary = crowded = disoriented = 0
     while low < n:
         end = np.uint64(by_low[low])
         while q < end:
             high = ordered[q] >> half
             first = ordered[q] & code
-            edges[p, 0] = low
-            edges[p, 1] = high
             face_edges[first >> one] = p
             begin = q
             q += one
@@ -170,6 +193,7 @@ def _number_edges(
                 twins[second >> one] = first >> one
                 q += one
                 if q < end and ordered[q] >> half == high:
+                    crowded += 1
                     while q < end and ordered[q] >> half == high:
                         face_edges[(ordered[q] & code) >> one] = p
                         q += one
@@ -178,8 +202,12 @@ def _number_edges(
                 else:
                     disoriented += int((first ^ second ^ one) & one)
             else:
+                boundary += 1
                 twins[first >> one] = -1
-            count[p] = q - begin
+            if p + p + one >= free + q:
+                return -1, 0, 0, 0
+            ends[p + p] = low
+            ends[p + p + one] = high
             p += one
         low += one
-    return p, disoriented
+    return np.int64(p), boundary, crowded, disoriented

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from beltrami._arrays import Booleans, Integers, read_only
+from beltrami._kinds import checked
 from beltrami.errors import MeshError
 from beltrami.mesh.door import require_mesh
 from beltrami.mesh.duplicates import duplicate_faces, merge_targets
@@ -42,6 +43,7 @@ class Repair:
     done: tuple[str, ...]
 
 
+@checked
 def repair(
     mesh: Mesh,
     *,

@@ -19,7 +19,7 @@ from beltrami.mesh.connectivity import (
 )
 from beltrami.mesh.faces import checked_faces
 from beltrami.mesh.fans import Fans, group_corners
-from beltrami.mesh.half_edges import HalfEdges, pair_sides
+from beltrami.mesh.half_edges import BOUNDARY, NOT_MANIFOLD, HalfEdges, pair_sides
 from beltrami.mesh.loops import order_boundary
 from beltrami.mesh.requirements import require_manifold
 from beltrami.mesh.rings import adjacency_matrix, incident_faces, vertex_ring
@@ -100,6 +100,12 @@ class Topology(Frozen):
         return self.half_edges.twins
 
     @cached_property
+    def edge_face_count(self) -> Integers:
+        """(p,) int: how many faces share each edge."""
+        sides = self.face_edges.ravel()
+        return read_only(np.bincount(sides[sides >= 0], minlength=self.n_edges))
+
+    @cached_property
     def edge_faces(self) -> csr_array:
         """(p, m) sparse: the faces of each edge."""
         sides = self.face_edges.ravel()
@@ -110,7 +116,7 @@ class Topology(Frozen):
     @cached_property
     def boundary_edges(self) -> Integers:
         """(b, 2) int: the edges with one face."""
-        return read_only(self.edges[self.half_edges.edge_face_count == 1])
+        return self._edges_beside(BOUNDARY, self.half_edges.n_boundary)
 
     @cached_property
     def on_boundary(self) -> Booleans:
@@ -122,7 +128,14 @@ class Topology(Frozen):
     @cached_property
     def non_manifold_edges(self) -> Integers:
         """(q, 2) int: the edges with more than two faces."""
-        return read_only(self.edges[self.half_edges.edge_face_count > 2])
+        return self._edges_beside(NOT_MANIFOLD, self.half_edges.n_crowded)
+
+    def _edges_beside(self, mark: int, count: int) -> Integers:
+        """Return the ``count`` edges with sides that have this mark for a twin."""
+        if count == 0:  # as on most meshes: the sides need not be looked at
+            return read_only(np.zeros((0, 2), np.int64))
+        sides = self.face_edges[self.twins == mark]
+        return read_only(self.edges[np.unique(sides[sides >= 0])])
 
     # ---------------------------------------------------------------- rings
 

@@ -95,7 +95,7 @@ def _disk_edges(mesh: Mesh) -> Booleans:
     in_tree = np.zeros(topology.n_edges, np.bool_)
     reached = np.flatnonzero(before >= 0)
     in_tree[edges_between(topology, reached, before[reached])] = True
-    inner = topology.half_edges.edge_face_count == 2
+    inner = topology.edge_face_count == 2
     i, j = topology.edges.T
     loop_length = distance[i] + distance[j] + mesh.edge_lengths
     candidates = np.flatnonzero(inner & ~in_tree)

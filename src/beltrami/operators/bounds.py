@@ -46,7 +46,7 @@ def side_weights(domain: Mesh | Topology, edge_weight: Floats, kind: str) -> Flo
     if kind == "cotangent" and isinstance(domain, Mesh):
         return face_numbers(domain).half_cotangents
     topology = topology_of(domain)
-    per_face = edge_weight / topology.half_edges.edge_face_count
+    per_face = edge_weight / topology.edge_face_count
     return np.asarray(per_face[topology.face_edges])
 
 

@@ -33,7 +33,7 @@ def tufted_cover(topology: Topology) -> tuple[Integers, NDArray[np.int32], NDArr
     up, down = np.where(start < end, sides, behind), np.where(start < end, behind, sides)
     numbers = topology.face_edges.ravel()
     order = np.argsort(numbers, kind="stable")
-    count = topology.half_edges.edge_face_count
+    count = topology.edge_face_count
     following = np.roll(order, -1)
     last = np.cumsum(count) - 1
     following[last] = order[last - count + 1]

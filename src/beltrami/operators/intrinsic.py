@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beltrami._arrays import Floats, Integers, read_only
+from beltrami._kinds import checked
 from beltrami.errors import ConvergenceError, NotOrientableError
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
@@ -86,6 +87,7 @@ class IntrinsicTriangulation:
         return np.asarray(self.dots / (2 * self.sheets * self.double_areas[:, None]))
 
 
+@checked
 def intrinsic_delaunay(mesh: Mesh, *, cover: bool = False) -> IntrinsicTriangulation:
     r"""Flip edges inside the surface until :math:`\cot\alpha + \cot\beta \ge 0` at each.
 

@@ -19,6 +19,7 @@ from beltrami._arrays import (
     rectangular,
     whole,
 )
+from beltrami._kinds import checked
 from beltrami.errors import DimensionError, MeshError
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.domain import require_laplacian
@@ -183,6 +184,7 @@ def _block(pair: Laplacian, order: Integers, number: Integers, start: int, end: 
     return RowBlock(start, pair.n, owned.copy(), ghosts, order[ghosts], local[0], local[1])
 
 
+@checked
 def gather_rows(blocks: Sequence[RowBlock], values: Sequence[ArrayLike]) -> Floats:
     """Return a function on all vertices from the values that the processes own.
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from beltrami._arrays import Booleans, Floats, Integers, read_only, whole
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.errors import MeshError, check_name, shown
 from beltrami.mesh.cut import Cut
@@ -44,6 +45,7 @@ class _Chart(NamedTuple):
     uv: Floats
 
 
+@checked
 def atlas(
     mesh: Mesh,
     count: int = 1,

@@ -199,7 +199,7 @@ def refuse_dividing_edges(
     side_before = np.where(is_corner, (side_after - 1) % count, side_after)
     sides = np.full((mesh.n_vertices, 2), -1)
     sides[loop] = np.stack([side_before, side_after], axis=1)
-    inner = mesh.edges[mesh.topology.half_edges.edge_face_count == 2]
+    inner = mesh.edges[mesh.topology.edge_face_count == 2]
     i, j = sides[inner].transpose(1, 0, 2)
     common = ((i[:, :, None] == j[:, None, :]) & (i[:, :, None] >= 0)).any(axis=(1, 2))
     if common.any():

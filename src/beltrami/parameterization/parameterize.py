@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_indices, whole
+from beltrami._kinds import checked
 from beltrami.errors import MeshError, NotADiskError, check_name
 from beltrami.mesh.cut import Cut
 from beltrami.mesh.door import require_mesh
@@ -28,6 +29,7 @@ _DEFAULTS: dict[str, tuple[str | Weigher, ...]] = {
 _WORDS = {"auto": "relaxed from", "tutte": "Tutte,", "free": "free boundary, from"}
 
 
+@checked
 def parameterize(
     mesh: Mesh,
     method: str = "auto",

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csc_array
 
 from beltrami._arrays import Floats
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.errors import BeltramiError, NotPositiveDefiniteError, SingularMatrixError
 from beltrami.solvers.iteration import IterativeSolution, Products, Trace, iterate
@@ -22,6 +23,7 @@ _REMEDY = "minres(A, b) takes symmetric matrices of any signs"
 _ROUNDING = 1e-13  # of <Ap, p>, beside the sum of the absolute values of its terms
 
 
+@checked
 def conjugate_gradients(
     A: Any,
     b: ArrayLike,

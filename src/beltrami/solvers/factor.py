@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csc_array
 
 from beltrami._arrays import Floats, as_floats
-from beltrami.errors import BeltramiError, ConvergenceError, NonFiniteError
+from beltrami.errors import BeltramiError, ConvergenceError, DimensionError, NonFiniteError
 from beltrami.solvers.matrix import as_right_hand_side
 
 REFINE_ABOVE = 1e-14  # backward error of a trial for which every solution is refined
@@ -159,6 +159,11 @@ class Factor:
         True
         """
         solution, right = as_floats(x), as_floats(b)
+        if solution.shape != right.shape or solution.shape[:1] != self.matrix.shape[:1]:
+            raise DimensionError(
+                f"a solution of the shape {solution.shape} and a right side of {right.shape} "
+                f"where {self.matrix.shape[0]} rows are needed"
+            )
         scale = abs(self.matrix) @ np.abs(solution) + np.abs(right)
         residual = np.abs(right - self.matrix @ solution)
         ratio = np.divide(residual, scale, out=np.zeros_like(scale), where=scale > 0)

@@ -15,6 +15,7 @@ from beltrami.errors import (
     NotPositiveDefiniteError,
     SingularMatrixError,
     check_name,
+    shown,
 )
 from beltrami.solvers.cholesky import Cholesky, factorize_cholesky, singular
 from beltrami.solvers.cholespy import factorize_cholespy
@@ -113,7 +114,10 @@ def factorize(
     matrix = as_matrix(A)
     n = matrix.shape[0]
     positions = None if coordinates is None else as_positions(coordinates, n)
-    kind = np.dtype(dtype)
+    try:
+        kind = np.dtype(dtype)
+    except TypeError as cause:
+        raise BeltramiError(f"factors are float64 or float32, not {shown(dtype)}") from cause
     if kind not in (np.float64, np.float32):
         raise BeltramiError(f"factors are float64 or float32, not {kind}")
     half = kind == np.float32

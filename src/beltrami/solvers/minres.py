@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csc_array
 
 from beltrami._arrays import Floats
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.errors import SingularMatrixError
 from beltrami.solvers.conjugate_gradients import require_symmetric
@@ -19,6 +20,7 @@ from beltrami.solvers.preconditioners import InPlace, Preconditioner, energy
 from beltrami.solvers.vectors import blend, dot, recur
 
 
+@checked
 def minres(
     A: Any,
     b: ArrayLike,

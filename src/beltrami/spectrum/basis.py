@@ -13,6 +13,7 @@ from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats, as_floats, as_function, read_only, read_only_matrix, whole
 from beltrami._carded import Carded
+from beltrami._kinds import checked
 from beltrami.errors import BeltramiError, DimensionError, NonFiniteError
 from beltrami.solvers.computation import Computation
 from beltrami.spectrum.basis_file import write_basis
@@ -53,6 +54,7 @@ class FourierBasis(Carded):
     def __repr__(self) -> str:
         return f"<FourierBasis: {self.k} of {self.n} eigenpairs>"
 
+    @checked
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the basis to a file (npz), as a whole or not at all; ``load_basis`` reads it.
 
@@ -120,6 +122,7 @@ class FourierBasis(Carded):
         """
         return np.asarray(self.forward(f) ** 2)
 
+    @checked
     def filter(self, f: ArrayLike, h: Response | ArrayLike, *, rest: float = 0.0) -> Floats:
         r"""Return :math:`\sum_i h(\lambda_i) \hat f_i \varphi_i`, (n,) or (n, c) as f.
 
@@ -149,6 +152,7 @@ class FourierBasis(Carded):
         result = self.inverse((factors * coefficients.T).T)
         return result + rest * (values - self.inverse(coefficients)) if rest else result
 
+    @checked
     def truncate(self, f: ArrayLike, m: int, *, largest: bool = False) -> Floats:
         r"""Return the first m terms, :math:`f_m = \sum_{i<m} \hat f_i \varphi_i` (definition 21).
 
@@ -176,6 +180,7 @@ class FourierBasis(Carded):
         kept = self.eigenvectors[:, :count]
         return np.asarray(kept @ (kept.T @ (self.mass @ as_function(f, self.n))))
 
+    @checked
     def error_decay(self, f: ArrayLike, *, largest: bool = False) -> Floats:
         r"""Return the errors :math:`\|f - f_m\|_B` of m = 0, 1 ... k terms, (k + 1,) or (k + 1, c).
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, Integers, as_function, as_indices, read_only, whole
+from beltrami._kinds import checked
 from beltrami.errors import BeltramiError, DimensionError
 from beltrami.spectrum.basis import FourierBasis
 from beltrami.spectrum.masses import total_mass
@@ -86,6 +87,7 @@ class FunctionalMap:
         )
 
 
+@checked
 def functional_map_from_points(
     source: FourierBasis, target: FourierBasis, point_map: ArrayLike, *, k: int | None = None
 ) -> FunctionalMap:

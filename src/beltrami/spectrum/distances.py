@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_indices
+from beltrami._kinds import checked
 from beltrami.errors import BeltramiError, MeshError, check_name
 from beltrami.spectrum.basis import FourierBasis
 from beltrami.spectrum.null_space import ZERO, apart, positive_modes, true_zeros
@@ -15,6 +16,7 @@ from beltrami.spectrum.null_space import ZERO, apart, positive_modes, true_zeros
 SPECTRAL_DISTANCES = ("biharmonic", "commute_time", "diffusion")
 
 
+@checked
 def spectral_embedding(
     basis: FourierBasis,
     kind: str = "biharmonic",
@@ -69,6 +71,7 @@ def spectral_embedding(
     return basis.eigenvectors * weights
 
 
+@checked
 def spectral_distance(
     basis: FourierBasis,
     sources: ArrayLike,

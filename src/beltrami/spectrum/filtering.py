@@ -7,6 +7,7 @@ import math
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_function, whole
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.errors import BeltramiError, DimensionError, check_name
 from beltrami.operators.domain import require_laplacian
@@ -23,6 +24,7 @@ FILTER_METHODS = ("chebyshev", "exact", "lanczos")
 _LARGEST_DENSE = 4000  # vertices: three matrices of 128 MB each
 
 
+@checked
 def filter(  # noqa: A001
     laplacian: Laplacian,
     f: ArrayLike,

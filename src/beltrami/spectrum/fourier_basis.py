@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
 from beltrami._arrays import Booleans, Floats, as_indices
+from beltrami._kinds import checked
 from beltrami.errors import BeltramiError, MeshError
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.domain import require_laplacian
@@ -19,6 +20,7 @@ from beltrami.solvers.eigenpairs import Eigenpairs, eigenpairs
 from beltrami.spectrum.basis import FourierBasis
 
 
+@checked
 def fourier_basis(
     laplacian: Laplacian,
     k: SupportsIndex,

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_floats, as_function, rectangular
+from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.errors import BeltramiError, DimensionError, NonFiniteError
 from beltrami.operators.pair import Laplacian
@@ -63,6 +64,7 @@ class Frame:
         power = self.power(points)
         return float(power.min()), float(power.max())
 
+    @checked
     def analyze(
         self,
         operator: Laplacian | FourierBasis,
@@ -96,6 +98,7 @@ class Frame:
         values = as_function(f, operator.n)
         return self._filtered(operator, self.kernels, values, tolerance, progress)
 
+    @checked
     def synthesize(
         self,
         operator: Laplacian | FourierBasis,

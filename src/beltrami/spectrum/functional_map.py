@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_function, as_indices, rectangular
+from beltrami._kinds import checked
 from beltrami.errors import BeltramiError, DimensionError, MeshError
 from beltrami.spectrum.basis import FourierBasis
 from beltrami.spectrum.correspondence import (
@@ -22,6 +23,7 @@ from beltrami.spectrum.masses import total_mass
 _RANK = 1e-12  # of the rows' systems: smaller singular values are not determined
 
 
+@checked
 def functional_map(
     source: FourierBasis,
     target: FourierBasis,

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, whole
+from beltrami._kinds import checked
 from beltrami.spectrum.basis import FourierBasis
 from beltrami.spectrum.masses import total_mass
 from beltrami.spectrum.null_space import ZERO, positive_modes, true_zeros
@@ -14,6 +15,7 @@ from beltrami.spectrum.signature import Signature, weighted_squares
 from beltrami.spectrum.truncation import missing_squares, worst_ratio
 
 
+@checked
 def heat_kernel_signature(
     basis: FourierBasis,
     times: ArrayLike | None = None,

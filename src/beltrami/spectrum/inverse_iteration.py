@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
-from beltrami._arrays import Booleans, Floats, as_function, as_indices
+from beltrami._arrays import Booleans, Floats, as_function, as_indices, whole
+from beltrami._kinds import checked
 from beltrami.errors import BeltramiError, DimensionError, MeshError
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.domain import require_laplacian
@@ -19,6 +20,7 @@ from beltrami.solvers.inverse_iteration import InverseIteration, iterate
 from beltrami.solvers.shifted import shifted_solver
 
 
+@checked
 def inverse_iteration(
     laplacian: Laplacian,
     shift: float,
@@ -132,7 +134,7 @@ def _free(laplacian: Laplacian, hold: ArrayLike) -> Booleans:
 def _start(laplacian: Laplacian, start: ArrayLike | None, seed: int) -> Floats:
     """Return the first vector."""
     if start is None:
-        return np.random.default_rng(seed).standard_normal(laplacian.n)
+        return np.random.default_rng(whole("seed", seed, 0)).standard_normal(laplacian.n)
     v = as_function(start, laplacian.n, "the start")
     if v.ndim != 1:
         raise DimensionError(f"the start is one vector ({laplacian.n},), not {v.shape}")

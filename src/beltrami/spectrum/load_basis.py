@@ -6,7 +6,9 @@ import os
 
 import numpy as np
 
+from beltrami._kinds import checked
 from beltrami.errors import DimensionError, MeshError
+from beltrami.operators.domain import require_laplacian
 from beltrami.operators.pair import Laplacian
 from beltrami.spectrum.basis import FourierBasis
 from beltrami.spectrum.basis_file import read_basis
@@ -16,6 +18,7 @@ _ROUNDING = 1e-11  # of L f, beside |L| |f|
 _SEED = 577_215_664
 
 
+@checked
 def load_basis(path: str | os.PathLike[str], laplacian: Laplacian | None = None) -> FourierBasis:
     r"""Read a basis that ``FourierBasis.save`` wrote.
 
@@ -60,7 +63,7 @@ def load_basis(path: str | os.PathLike[str], laplacian: Laplacian | None = None)
     """
     basis = FourierBasis(*read_basis(path))
     if laplacian is not None:
-        _require_same(basis, laplacian)
+        _require_same(basis, require_laplacian(laplacian, "load_basis"))
     return basis
 
 

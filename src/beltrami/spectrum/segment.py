@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, Integers, as_indices, read_only, rectangular, whole
+from beltrami._kinds import checked
 from beltrami.errors import BeltramiError, DimensionError
 from beltrami.mesh.connectivity import component_labels
 from beltrami.spectrum.basis import FourierBasis
@@ -48,6 +49,7 @@ class Segmentation:
         return len(self.masses)
 
 
+@checked
 def segment(
     basis: FourierBasis,
     count: int,
@@ -122,7 +124,7 @@ def segment(
     if zeros > 1 and kind != "diffusion":
         extent = np.sqrt((points**2).sum(axis=1).max() * masses.sum())
         points[:, :zeros] = _FAR * extent * basis.eigenvectors[:, :zeros]
-    labels, total = k_means(points, masses, count, seed)
+    labels, total = k_means(points, masses, count, whole("seed", seed, 0))
     if edges is not None:
         labels = _pieces(labels, _checked(edges, basis.n))
     return Segmentation(labels, _masses(labels, masses), total / masses.sum())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from beltrami._arrays import Floats
+from beltrami._kinds import checked
 from beltrami.errors import check_name
 from beltrami.spectrum.basis import FourierBasis
 from beltrami.spectrum.masses import total_mass
@@ -11,6 +12,7 @@ from beltrami.spectrum.null_space import ZERO, positive_modes, true_zeros
 NORMALIZATIONS = ("area", "first", "none")
 
 
+@checked
 def shape_dna(
     basis: FourierBasis, normalization: str = "area", *, tolerance: float = ZERO
 ) -> Floats:

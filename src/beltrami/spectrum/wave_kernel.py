@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, whole
+from beltrami._kinds import checked
 from beltrami.errors import BeltramiError, MeshError
 from beltrami.spectrum.basis import FourierBasis
 from beltrami.spectrum.masses import total_mass
@@ -17,6 +18,7 @@ from beltrami.spectrum.truncation import missing_modes, missing_squares, worst_r
 _STEPS = 7  # the width of a band, in steps from one energy to the next (the paper's choice)
 
 
+@checked
 def wave_kernel_signature(
     basis: FourierBasis,
     energies: ArrayLike | None = None,

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from beltrami._arrays import Floats, whole
+from beltrami._kinds import checked
 from beltrami.errors import BeltramiError
 from beltrami.spectrum.frames import Frame
 from beltrami.spectrum.kernel import Kernel
@@ -71,6 +72,7 @@ class Plateau(Kernel):
         return np.asarray(np.exp(-((x / self.cutoff) ** 4)))
 
 
+@checked
 def meyer_frame(bound: float, scales: int = 4) -> Frame:
     r"""Make a tight frame of a scaling function and wavelets in dyadic bands: A = B = 1.
 
@@ -100,6 +102,7 @@ def meyer_frame(bound: float, scales: int = 4) -> Frame:
     return Frame(tuple(MeyerBand(a, b) for a, b in pairwise(ends)), bound)
 
 
+@checked
 def mexican_hat_frame(bound: float, scales: int = 5) -> Frame:
     r"""Make a frame of Mexican hats with dyadic peaks, and a plateau below them.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from beltrami._arrays import Floats, Integers, whole
+from beltrami._kinds import checked
 from beltrami._progress import Progress, stages
 from beltrami.errors import BeltramiError
 from beltrami.spectrum.correspondence import (
@@ -16,6 +17,7 @@ from beltrami.spectrum.nearest import spread_rows
 from beltrami.spectrum.point_maps import map_of_points, map_of_samples, nearest_points
 
 
+@checked
 def zoomout(
     start: FunctionalMap,
     k: int | None = None,

@@ -8,8 +8,10 @@ from numbers import Real
 from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from beltrami._arrays import Booleans, Floats
+from beltrami._arrays import Booleans, Floats, as_floats
+from beltrami._kinds import checked
 from beltrami.errors import SurfaceError, shown
 
 _TRUTH = (bool, np.bool_)
@@ -89,7 +91,8 @@ class Rectangle:
 
     def contains(self, u: Floats, v: Floats) -> Booleans:
         """Whether each (u, v) is in the rectangle; any value of a periodic parameter is."""
-        inside = np.ones(np.broadcast_shapes(np.shape(u), np.shape(v)), dtype=bool)
+        u, v = _parameters(u, v)
+        inside = np.ones(np.broadcast_shapes(u.shape, v.shape), dtype=bool)
         for x, (low, high), around in zip((u, v), (self.u, self.v), self.periodic, strict=True):
             slack = _SLACK * (high - low)
             inside &= around | ((x >= low - slack) & (x <= high + slack))
@@ -97,12 +100,14 @@ class Rectangle:
 
     def nearest(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
         """Bring periodic parameters into [u0, u1) and [v0, v1), others to the nearest inside."""
+        u, v = _parameters(u, v)
         found = [
             low + np.mod(x - low, high - low) if around else np.clip(x, low, high)
             for x, (low, high), around in zip((u, v), (self.u, self.v), self.periodic, strict=True)
         ]
         return found[0], found[1]
 
+    @checked
     def samples(self, n: int) -> tuple[Floats, Floats]:
         """Return n parameters spread evenly inside, none of them special."""
         a, b = _spread(n)
@@ -153,15 +158,18 @@ class Disk:
 
     def contains(self, u: Floats, v: Floats) -> Booleans:
         """Whether each (u, v) is in the disk."""
+        u, v = _parameters(u, v)
         from_center = np.hypot(u - self.center[0], v - self.center[1])
         return np.asarray(from_center <= self.radius * (1 + _SLACK))
 
     def nearest(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
         """Bring parameters outside to the circle, along its radius."""
+        u, v = _parameters(u, v)
         x, y = u - self.center[0], v - self.center[1]
         shrink = self.radius / np.maximum(np.hypot(x, y), self.radius)
         return self.center[0] + shrink * x, self.center[1] + shrink * y
 
+    @checked
     def samples(self, n: int) -> tuple[Floats, Floats]:
         """Return n parameters spread evenly inside, none of them special."""
         a, b = _spread(n)
@@ -170,6 +178,16 @@ class Disk:
             self.center[0] + r * np.cos(2 * np.pi * b),
             self.center[1] + r * np.sin(2 * np.pi * b),
         )
+
+
+def _parameters(u: ArrayLike, v: ArrayLike) -> tuple[Floats, Floats]:
+    """Return two arrays of numbers, whose shapes go together."""
+    first, second = as_floats(u), as_floats(v)
+    try:
+        np.broadcast_shapes(first.shape, second.shape)
+    except ValueError as cause:
+        raise SurfaceError(f"parameters of the shapes {first.shape} and {second.shape}") from cause
+    return first, second
 
 
 def as_domain(domain: Any, periodic: tuple[bool, bool]) -> Rectangle | Disk:

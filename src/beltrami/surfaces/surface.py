@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats
+from beltrami._kinds import checked
 from beltrami.errors import DimensionError
 from beltrami.surfaces import checks, forms
 from beltrami.surfaces.chart import SAMPLES, Chart
@@ -99,6 +100,7 @@ class ParametricSurface(Chart):
         vector = forms.mean_curvature_vector(at.jacobian, at.hessian)
         return -(vector * forms.unit_normal(at.jacobian)).sum(axis=-1).reshape(shape)
 
+    @checked
     def is_flat(self, tol: float = 1e-9) -> bool:
         """Whether K = 0, at 256 parameters: the surface is locally isometric to the plane (E1).
 

@@ -11,7 +11,7 @@ from beltrami.compression.contents import describe
 from beltrami.compression.decompress import decompress
 from beltrami.mesh.mesh import Mesh
 
-BITS = (6, 8, 10, 12, 14)
+BITS = (6, 10, 14)
 COARSE = 6
 TERMS = (4, 16, 64)
 HEAD = ("bits of the grid", "bytes", "bits per vertex", "mean error", "moved to likely places")

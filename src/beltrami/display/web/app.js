@@ -28,11 +28,13 @@ export class App extends Quantities {
     this.painter = new Painter(gl);
     this.normals = new NormalPass(gl, ringsOf(data.faces, n), n);
     this.surface = surfaceBuffers(gl, n);
+    if (data.picture) this.painter.setPicture(data.picture);
     this.mesh = this.painter.prepare(this.surface, data.faces, data.edges);
     this.bar = new ColourBar(header.colours);
     this.marked = this.topmost();
     this.frames = [];
     this.loaded = new Map();
+    this.flattened = new Map();
     this.pace = 0;
     this.useTheme();
     this.valuesOf = null;
@@ -83,9 +85,11 @@ export class App extends Quantities {
     this.stale = false;
   }
 
-  get flat() {
-    this.flattened ??= flatMesh(this);
-    return this.flattened;
+  // The mesh cut open for a map of `data.maps`.
+  flat(index) {
+    const { flattened, data } = this;
+    if (!flattened.has(index)) flattened.set(index, flatMesh(this, data.maps[index]));
+    return flattened.get(index);
   }
 
   get copies() {
@@ -114,6 +118,7 @@ export class App extends Quantities {
       line: recipe.line ? 1 : 0,
       spacing: recipe.spacing ?? 0,
       checks: recipe.checks ?? 0,
+      pictured: recipe.pictured ? 1 : 0,
       clay,
       tint: this.data.header.planar ? 0 : 0.85,
       wire: this.state.wire,

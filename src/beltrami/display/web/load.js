@@ -8,7 +8,15 @@ export async function load(document) {
   const packed = document.getElementById("data");
   const bytes = await inflate(fromBase85(packed.textContent, Number(packed.dataset.length)));
   packed.remove();
-  return decoded(header, bytes);
+  return { ...decoded(header, bytes), picture: await pictureFrom(header, bytes) };
+}
+
+// The texture, as it is in its file.
+async function pictureFrom({ picture, sections }, bytes) {
+  if (!picture) return null;
+  const { start, rows } = placed(sections).get("picture");
+  const file = new Blob([bytes.subarray(start, start + rows)], { type: picture.kind });
+  return createImageBitmap(file, { colorSpaceConversion: "none", premultiplyAlpha: "none" });
 }
 
 export function decoded(header, bytes) {
@@ -42,7 +50,11 @@ export function decoded(header, bytes) {
       return levels.get(spectrum.section);
     },
     moved: (name, step) => interleaved(columns(name).map((c) => scaledBy(c, step, 0))),
-    plane: () => planeOf(header, columns, faces),
+    maps: [["plane", ""], ["own", "own "]]
+      .filter(([key]) => header[key] && !header[key].reason)
+      .map(([key, prefix]) => ({
+        key, ...header[key], decode: () => mapOf(header, key, prefix, columns, faces),
+      })),
   };
 }
 
@@ -82,16 +94,17 @@ export function interleaved(columns) {
 }
 
 // The mesh cut open: its faces, which vertex each copy belongs to, and coordinates in the plane.
-function planeOf(header, columns, faces) {
-  const { plane, n } = header;
-  const corners = summed(columns("seam corners")[0] ?? []);
-  const vertices = summed(columns("seam vertices")[0] ?? []);
-  const extra = summed(columns("seam copies")[0] ?? []);
+function mapOf(header, key, prefix, columns, faces) {
+  const { n } = header;
+  const { step } = header[key];
+  const column = (name) => summed(columns(prefix + name)[0] ?? []);
+  const [corners, vertices, extra] = ["seam corners", "seam vertices", "seam copies"].map(column);
   const cut = faces.slice();
   corners.forEach((corner, i) => (cut[corner] = vertices[i]));
   const original = new Int32Array(n + extra.length);
   for (let v = 0; v < original.length; v++) original[v] = v < n ? v : extra[v - n];
   const guesses = guessesOf(cut, original.length);
-  const uv = columns("plane").map((c) => scaledBy(guessed(c, guesses), plane.step, 0));
-  return { faces: cut, original, uv: interleaved(uv), edges: edgesOf(cut, original.length) };
+  const uv = columns(`${prefix}plane`).map((c) => scaledBy(guessed(c, guesses), step, 0));
+  const bare = new Set(prefix ? column("bare") : []); // copies without coordinates
+  return { faces: cut, original, uv: interleaved(uv), bare, edges: edgesOf(cut, original.length) };
 }

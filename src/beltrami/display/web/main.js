@@ -128,7 +128,8 @@ async function start() {
     dark.addEventListener("change", () => app.useTheme(dark.matches));
     // page.html#wave opens with waves
     const named = () => app.panels.find(({ id }) => location.hash === `#${id}`);
-    open(app, named() ?? app.panels[0]);
+    const first = data.header.textured ? "plane" : app.panels[0].id;
+    open(app, named() ?? app.panels.find(({ id }) => id === first));
     window.addEventListener("hashchange", () => named() && open(app, named()));
     waiting.hidden = true;
     window.beltrami = exposed(app);

@@ -6,6 +6,8 @@ import {
   lineFragment, numberFragment, plainVertex, pointFragment, surfaceFragment, surfaceVertex,
 } from "./shaders.js";
 
+const PLAIN = [0, 0, 1, 1];
+
 export class Painter {
   constructor(gl) {
     this.gl = gl;
@@ -16,11 +18,14 @@ export class Painter {
     this.colours = texture(gl, gl.TEXTURE_2D, UNIT.colours);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.LINEAR);
+    this.picture = texture(gl, gl.TEXTURE_2D, UNIT.picture);
+    this.fill(new ImageData(1, 1));
     gl.enable(gl.DEPTH_TEST);
   }
 
-  // Faces and edges to be drawn with the buffers of a surface; flat and uv if it has a map.
-  prepare({ places, normals }, faces, edges, { flat = null, uv = null } = {}) {
+  // Faces and edges to be drawn with the buffers of a surface; flat and uv if it has a map, and
+  // where uv 0 is on a picture and how far uv 1 is from there.
+  prepare({ places, normals }, faces, edges, { flat = null, uv = null, laid = PLAIN } = {}) {
     const gl = this.gl;
     const attributes = {
       a_place: { buffer: places, size: 4 },
@@ -31,6 +36,7 @@ export class Painter {
     const filled = buffer(gl, faces, gl.ELEMENT_ARRAY_BUFFER);
     const drawn = buffer(gl, edges, gl.ELEMENT_ARRAY_BUFFER);
     return {
+      laid,
       faces: faces.length,
       edges: edges.length,
       filled: vertexArray(gl, this.surface, attributes, filled),
@@ -48,6 +54,27 @@ export class Painter {
     gl.pixelStorei(gl.UNPACK_ALIGNMENT, 4);
   }
 
+  // A picture that goes on periodically, and its halves; the card turns sRGB into light.
+  setPicture(picture) {
+    const gl = this.gl;
+    this.fill(picture);
+    gl.generateMipmap(gl.TEXTURE_2D);
+    for (const [key, value] of [
+      [gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR],
+      [gl.TEXTURE_MAG_FILTER, gl.LINEAR],
+      [gl.TEXTURE_WRAP_S, gl.REPEAT],
+      [gl.TEXTURE_WRAP_T, gl.REPEAT],
+    ]) {
+      gl.texParameteri(gl.TEXTURE_2D, key, value);
+    }
+  }
+
+  fill(picture) {
+    const gl = this.gl;
+    bindTexture(gl, gl.TEXTURE_2D, UNIT.picture, this.picture);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.SRGB8_ALPHA8, gl.RGBA, gl.UNSIGNED_BYTE, picture);
+  }
+
   clear([r, g, b]) {
     const gl = this.gl;
     gl.disable(gl.SCISSOR_TEST);
@@ -61,6 +88,7 @@ export class Painter {
     const { mesh, box, lens, look } = view;
     gl.viewport(...box);
     bindTexture(gl, gl.TEXTURE_2D, UNIT.colours, this.colours);
+    bindTexture(gl, gl.TEXTURE_2D, UNIT.picture, this.picture);
     gl.useProgram(this.surface.made);
     setUniforms(gl, this.surface, {
       u_matrix: lens.matrix,
@@ -74,6 +102,9 @@ export class Painter {
       u_line: look.line,
       u_spacing: look.spacing,
       u_checks: look.checks,
+      u_picture: { int: UNIT.picture },
+      u_pictured: look.pictured,
+      u_laid: mesh.laid,
       u_clay: look.clay,
       u_tint: look.tint,
     });

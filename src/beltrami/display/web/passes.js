@@ -4,7 +4,7 @@ import { bindTexture, buffer, program, setUniforms, texture, vertexArray } from 
 import { NOTHING, normals, synthesis } from "./shaders.js";
 
 const WIDTH = 2048; // of the textures that hold one texel for each vertex
-export const UNIT = { colours: 0, modes: 1, places: 2, corners: 3 };
+export const UNIT = { colours: 0, modes: 1, places: 2, corners: 3, picture: 4 };
 
 const rowsFor = (count) => Math.max(1, Math.ceil(count / WIDTH));
 

@@ -83,6 +83,9 @@ uniform float u_colored;
 uniform float u_line;
 uniform float u_spacing;
 uniform float u_checks;
+uniform sampler2D u_picture;
+uniform float u_pictured;
+uniform vec4 u_laid;
 uniform vec3 u_clay;
 uniform float u_tint;
 in vec3 v_normal;
@@ -103,7 +106,15 @@ void main() {
   float light = 0.38 + 0.50 * max(dot(seen, u_light), 0.0) + 0.16 * fill;
   float t = clamp((v_value - u_range.x) / (u_range.y - u_range.x), 0.0, 1.0);
   vec3 paint = mix(u_clay, texture(u_colours, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb, u_colored);
-  if (u_checks > 0.0) {
+  bool mapped = v_uv.x >= -1.0; // corners without coordinates are far to the left
+  if (u_pictured > 0.0) {
+    vec3 light = texture(u_picture, u_laid.xy + v_uv * u_laid.zw).rgb;
+    vec3 bright = 1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055;
+    vec3 shown = mix(12.92 * light, bright, step(0.0031308, light));
+    // under a function it is grey
+    if (mapped) paint = mix(shown, paint * dot(shown, vec3(0.2126, 0.7152, 0.0722)), u_colored);
+  }
+  if (u_checks > 0.0 && mapped) {
     vec2 cell = floor(v_uv * u_checks);
     paint *= mod(cell.x + cell.y, 2.0) < 0.5 ? 1.0 : 0.62;
   }

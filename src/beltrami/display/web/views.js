@@ -5,6 +5,8 @@ import { buffer } from "./gl.js";
 import { readPlaces, surfaceBuffers } from "./passes.js";
 import { projected } from "./vectors.js";
 
+const NOWHERE = -10; // the coordinates of corners that have none
+
 export function viewsOf(app, look) {
   const { gl, panel } = app;
   const [width, height] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
@@ -29,7 +31,8 @@ export function viewsOf(app, look) {
 }
 
 function planeViews(app, look, view) {
-  const { flat, recipe } = app;
+  const { recipe } = app;
+  const flat = app.flat(recipe.mapped);
   if (flat.values !== recipe.flatValues) flat.setValues(recipe.flatValues);
   const front = { ...app.camera, azimuth: 0, elevation: 0, target: [0, 0, 0], distance: 3.5 };
   const right = view(flat.mesh, 1, 2, front, { unfold: 1 });
@@ -41,9 +44,9 @@ function planeViews(app, look, view) {
 }
 
 // The cut mesh: the same places with copies at the seams, and coordinates in the plane.
-export function flatMesh(app) {
+export function flatMesh(app, map) {
   const { gl, data, painter } = app;
-  const { faces, original, uv, edges } = data.plane();
+  const { faces, original, uv, bare, edges } = map.decode();
   const count = original.length;
   const pull = (values, width) => {
     const result = new Float32Array(count * width);
@@ -53,14 +56,16 @@ export function flatMesh(app) {
     return result;
   };
   const base = pull(data.base, 3);
-  const { flat, front, unitUv } = laid(uv, data.header.up);
+  const { flat, front, unitUv, ends, size } = unfolded(uv, bare, data.header.up);
+  const laid = onPicture(map, ends, size);
   const buffers = { n: count, places: null, normals: buffer(gl, pull(data.normals, 3)) };
   const places = new Float32Array(4 * count);
   for (let v = 0; v < count; v++) places.set(base.subarray(3 * v, 3 * v + 3), 4 * v);
   buffers.places = buffer(gl, places);
   return {
-    base, faces, uv, front,
-    mesh: painter.prepare(buffers, faces, edges, { flat, uv: unitUv }),
+    base, uv, front,
+    faces: bare.size ? withUv(faces, bare) : faces,
+    mesh: painter.prepare(buffers, faces, edges, { flat, uv: unitUv, laid }),
     values: undefined,
     setValues(values) {
       for (let v = 0; v < count; v++) places[4 * v + 3] = values ? values[v] : 0;
@@ -73,11 +78,12 @@ export function flatMesh(app) {
 }
 
 // Coordinates in the plane that faces the viewer at first, as large as the mesh.
-function laid(uv, up) {
+function unfolded(uv, bare, up) {
   const { x, y, z } = axesOf({ up, azimuth: 0, elevation: 0 });
   const ends = [0, 1].map((c) => {
     let [low, high] = [Infinity, -Infinity];
     for (let i = c; i < uv.length; i += 2) {
+      if (bare.has((i - c) / 2)) continue;
       if (uv[i] < low) low = uv[i];
       if (uv[i] > high) high = uv[i];
     }
@@ -87,12 +93,33 @@ function laid(uv, up) {
   const flat = new Float32Array((uv.length / 2) * 3);
   const unitUv = new Float32Array(uv.length);
   for (let v = 0; v < uv.length / 2; v++) {
+    if (bare.has(v)) {
+      unitUv[2 * v] = NOWHERE; // and all in one point of the plane
+      continue;
+    }
     const [s, t] = [0, 1].map((c) => (uv[2 * v + c] - (ends[c][0] + ends[c][1]) / 2) / size);
     for (let i = 0; i < 3; i++) flat[3 * v + i] = 1.8 * (s * x[i] + t * y[i]);
     unitUv[2 * v] = s + 0.5;
     unitUv[2 * v + 1] = t + 0.5;
   }
-  return { flat, front: z, unitUv };
+  return { flat, front: z, unitUv, ends, size };
+}
+
+// Where the corner and the sides of the square that holds a map lie on the picture: as the
+// coordinates of the mesh say, or such that the picture covers the map that was made once.
+function onPicture(map, [[left, right], [low, high]], size) {
+  if (map.key === "own") {
+    const corner = [(left + right - size) / 2, (low + high - size) / 2];
+    return [corner[0] + map.origin[0], 1 - (corner[1] + map.origin[1]), size, -size];
+  }
+  const [width, height] = [(right - left) / size || 1, (high - low) / size || 1];
+  return [0.5 - 0.5 / width, 0.5 + 0.5 / height, 1 / width, -1 / height];
+}
+
+function withUv(faces, bare) {
+  const starts = Array.from({ length: faces.length / 3 }, (_, f) => 3 * f);
+  const kept = starts.filter((at) => !bare.has(faces[at]));
+  return Int32Array.from(kept.flatMap((at) => [faces[at], faces[at + 1], faces[at + 2]]));
 }
 
 // Original, noisy and denoised.

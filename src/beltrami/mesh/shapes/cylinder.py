@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from beltrami._arrays import Floats, Integers
+from beltrami._kinds import checked
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes.concentric import disk_faces, ring_points
 from beltrami.mesh.shapes.lattice import lattice_faces
 from beltrami.mesh.shapes.parameters import positive, whole
 
 
+@checked
 def cylinder(
     n_around: int = 32,
     n_along: int = 10,

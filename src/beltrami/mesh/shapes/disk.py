@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from beltrami._kinds import checked
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes.concentric import disk_faces, ring_points
 from beltrami.mesh.shapes.parameters import flat, positive, whole
 
 
+@checked
 def disk(rings: int = 10, radius: float = 1.0, *, dimension: int = 2) -> Mesh:
     """Mesh a flat disk by rings of 6, 12, 18, ... vertices around its centre.
 

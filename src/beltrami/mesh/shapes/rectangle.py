@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from beltrami._kinds import checked
 from beltrami.errors import check_name
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes.lattice import lattice_faces
 from beltrami.mesh.shapes.parameters import flat, positive, whole
 
 
+@checked
 def grid(
     nx: int = 20,
     ny: int = 20,

@@ -1,0 +1,145 @@
+"""Formats whose numbers are compressed inside: how much they hold, before a package unpacks it."""
+
+from __future__ import annotations
+
+import base64
+import lzma
+import math
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any, Final
+from xml.etree import ElementTree as ET
+from xml.parsers import expat
+
+import numpy as np
+
+from beltrami.errors import FileFormatError
+from beltrami.io.unpacking import Room, inflated
+
+_BLOCK: Final = 1 << 20
+_RAW: Final = re.compile(rb"<AppendedData[^>]*encoding=[\"']raw[\"'][^>]*>\s*_")
+
+
+def require_room(path: Path, suffix: str, room: Room) -> None:
+    """Raise FileFormatError if what is compressed inside a file is more than it may unpack to."""
+    if suffix not in _LOOKS:
+        return
+    try:
+        for block in _LOOKS[suffix](path, room.path):
+            room.take(len(block))
+    except FileFormatError:
+        raise
+    except Exception as cause:  # of the parsers, on a broken file
+        reason = f"{type(cause).__name__}: {cause}"
+        raise FileFormatError(room.path, f"expected a {suffix} file ({reason})") from cause
+
+
+def _of_gifti(path: Path, name: object) -> Iterator[bytes]:
+    """Unpack each array of a GIFTI file as far as its sizes say, and a byte more."""
+    arrays: list[tuple[int, list[str]]] = []
+    reading: list[bool] = [False]
+
+    def start(name: str, attributes: dict[str, str]) -> None:
+        if name == "DataArray":
+            sizes = [int(v) for key, v in attributes.items() if re.fullmatch(r"Dim\d", key)]
+            packed = "gz" in attributes.get("Encoding", "").lower()
+            arrays.append((8 * math.prod(sizes) if packed else -1, []))
+        reading[0] = name == "Data"
+
+    def text(piece: str) -> None:
+        if reading[0] and arrays and arrays[-1][0] >= 0:
+            arrays[-1][1].append(piece)
+
+    parser = expat.ParserCreate()
+    parser.StartElementHandler, parser.CharacterDataHandler = start, text
+    with path.open("rb") as file:
+        parser.ParseFile(file)
+    for most, pieces in arrays:
+        found = 0
+        for block in inflated(base64.b64decode("".join(pieces))) if most >= 0 else ():
+            found += len(block)
+            if found > most:
+                raise FileFormatError(
+                    name, f"expected at most {most} bytes in an array, as it says, found more"
+                )
+            yield block
+
+
+def _of_vtu(path: Path, _name: object) -> Iterator[bytes]:
+    """Unpack the blocks of all arrays of a VTU file, whichever of its three ways they stand in."""
+    content = path.read_bytes()
+    raw = _RAW.search(content)
+    if raw:
+        content, data = content[: raw.end()] + b"</AppendedData></VTKFile>", content[raw.end() :]
+    root = ET.fromstring(content)  # noqa: S314 - expat bounds what entities become
+    compressor = root.get("compressor")
+    if compressor is None:
+        return
+    unpack = _stream if compressor == "vtkLZMADataCompressor" else inflated
+    size = 8 if root.get("header_type") == "UInt64" else 4
+    kind = np.dtype(f"{'>' if root.get('byte_order') == 'BigEndian' else '<'}u{size}")
+    if raw:
+        yield from _of_bytes(data[: data.rfind(b"</AppendedData>")], kind, unpack)
+        return
+    appended = "".join(part.text or "" for part in root.iter("AppendedData")).strip()
+    for array in root.iter("DataArray"):
+        if array.get("format") == "binary":
+            yield from _of_text((array.text or "").strip(), kind, unpack)
+        elif array.get("format") == "appended":
+            yield from _of_text(appended[1 + int(array.get("offset", "0")) :], kind, unpack)
+
+
+def _of_text(text: str, kind: np.dtype[Any], unpack: Callable[[bytes], Iterator[bytes]]) -> Any:
+    """Unpack an array in base64: sizes of blocks, then the blocks."""
+    count = int(np.frombuffer(_decoded(text, kind.itemsize), kind, 1)[0])
+    head = (3 + count) * kind.itemsize
+    sizes = np.frombuffer(_decoded(text, head), kind)[3:].tolist()
+    blocks = _decoded(text[_letters(head) :], sum(sizes))
+    yield from _of_blocks(blocks, sizes, unpack)
+
+
+def _of_bytes(data: bytes, kind: np.dtype[Any], unpack: Callable[[bytes], Iterator[bytes]]) -> Any:
+    """Unpack arrays that follow each other."""
+    at = 0
+    while at + 3 * kind.itemsize <= len(data):
+        count = int(np.frombuffer(data, kind, 1, at)[0])
+        sizes = np.frombuffer(data, kind, 3 + count, at)[3:].tolist()
+        at += (3 + count) * kind.itemsize
+        yield from _of_blocks(data[at : at + sum(sizes)], sizes, unpack)
+        at += sum(sizes)
+
+
+def _of_blocks(
+    data: bytes, sizes: list[int], unpack: Callable[[bytes], Iterator[bytes]]
+) -> Iterator[bytes]:
+    at = 0
+    for size in sizes:
+        yield from unpack(data[at : at + size])
+        at += size
+
+
+def _letters(size: int) -> int:
+    """Return how many letters of base64 so many bytes take."""
+    return 4 * -(-size // 3)
+
+
+def _decoded(text: str, size: int) -> bytes:
+    return base64.b64decode(text[: _letters(size)])[:size]
+
+
+def _stream(data: bytes) -> Iterator[bytes]:
+    """Decompress one stream of LZMA, a block at a time."""
+    unpacker = lzma.LZMADecompressor(memlimit=1 << 28)
+    while not unpacker.eof:
+        block = unpacker.decompress(data, _BLOCK)
+        if not block and unpacker.needs_input:
+            return
+        yield block
+        data = b""
+
+
+_LOOKS: Final[dict[str, Callable[[Path, object], Iterator[bytes]]]] = {
+    ".gii": _of_gifti,
+    ".vtu": _of_vtu,
+}
