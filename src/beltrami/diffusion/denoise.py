@@ -184,7 +184,7 @@ def denoise(
     one or two small random changes of the input, from a fixed seed (Ramani, Blu and Unser 2008),
     so the same mesh gives the same result. The mixtures are chosen as if σ were 15 % larger: to
     take some shape for noise costs little, but what is left of the noise spoils the normals; and
-    the chosen mixture fits the noise it was chosen on. Where the noise is very strong it is 50 %,
+    the chosen mixture fits the noise it was chosen on. Where the noise is very strong it is 70 %,
     because the normals, along which it is looked for, are off. The ``predicted_error`` is for σ as
     it is, and at least σ times the divergence for each vertex, the least that a linear filter
     leaves.
