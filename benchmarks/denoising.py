@@ -216,6 +216,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         found = measured(
             name, meshes, asked.folder, asked.seeds, asked.levels, more=not asked.no_more
         )
+        if not found[0]:
+            missing.append(name)
         cases += found[0]
         odd += found[1]
     asked.output.write_text(written(cases, odd, missing))
