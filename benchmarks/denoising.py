@@ -1,6 +1,6 @@
 """Denoising without a parameter, against peers at the best parameter that knowing the truth finds.
 
-python -m benchmarks.denoising [mesh ...] [--seeds 3] [--folder kept]   BENCHMARKS-DENOISING.md
+python -m benchmarks.denoising [mesh ...] [--seeds 3] [--folder kept]  BENCHMARKS-DENOISING.md
 python -m benchmarks.denoising --faces 1000000                          one large mesh, printed
 
 Noise is white, along the normals, of 0.1, 0.2 and 0.3 mean edge lengths; "Fandisk0.3" is a noisy
@@ -47,7 +47,7 @@ from benchmarks.smoothers import DEFAULT, peers
 
 LEVELS = (0.1, 0.2, 0.3)
 REPORT = Path(__file__).parents[1] / "BENCHMARKS-DENOISING.md"
-_LARGE, _VERY_LARGE = 30_000, 100_000  # vertices, from which there are two seeds, and one
+_LARGE, _VERY_LARGE = 15_000, 40_000  # vertices, from which there are two seeds, and one
 _SMALL = 15_000  # vertices, up to which odd noise is tried too
 Facts = dict[str, Any]
 
@@ -119,9 +119,22 @@ def of_odd(truth: Any, mesh: Any) -> Facts:
 
 
 def measured(
-    name: str, meshes: Path, folder: Path | None, seeds: int
+    name: str,
+    meshes: Path,
+    folder: Path | None,
+    seeds: int,
+    levels: Sequence[float] = LEVELS,
+    *,
+    more: bool = True,
 ) -> tuple[list[Case], list[OddCase]]:
-    """Measure one mesh at all levels, and, if it is small, with odd noise."""
+    """Measure one mesh at some levels, and, if it is small, with odd noise.
+
+    Without ``more`` only what the folder has is told.
+    """
+
+    def wanted(*names: str) -> bool:
+        return more or (folder is not None and all((folder / f"{x}.json").exists() for x in names))
+
     if name == PAIR:
         truth, mesh = pair(meshes)
         facts = (
@@ -133,18 +146,24 @@ def measured(
     n = truth.n_vertices
     seeds = 1 if n > _VERY_LARGE else min(seeds, 2) if n > _LARGE else seeds
     cases, odd = [], []
-    for level in LEVELS:
+    for level in levels:
         runs = []
         for seed in range(seeds):
+            key = f"{name}-{level}-{seed}"
+            if not wanted(f"{key}-of_peers", f"{key}-of_ours"):
+                continue
             mesh = noisy(truth, level, seed)
             facts = (
-                kept(folder, f"{name}-{level}-{seed}-{one.__name__}",
+                kept(folder, f"{key}-{one.__name__}",
                      lambda one=one, mesh=mesh: one(truth, mesh))
                 for one in (of_peers, of_ours)
             )  # fmt: skip
             runs.append(tuple(facts))
-        cases.append(Case(name, level, n, tuple(runs)))
+        if runs:
+            cases.append(Case(name, level, n, tuple(runs)))
     for kind in ODD if n <= _SMALL else ():
+        if not wanted(f"{name}-{kind}"):
+            continue
         mesh = odd_noise(truth, kind, 0)
         facts = kept(folder, f"{name}-{kind}", lambda mesh=mesh: of_odd(truth, mesh))
         odd.append(OddCase(name, kind, facts))
@@ -152,11 +171,9 @@ def measured(
 
 
 def time_of(faces: int) -> str:
-    """Tell the time, the memory and the errors of a shape of at least so many faces."""
+    """Tell the time, the memory and the errors of a shape of about so many faces."""
     bt = package("beltrami")
-    arrays = plain(bt.shapes.blob(30_000))
-    while len(arrays[1]) < faces:
-        arrays = subdivided(*arrays)
+    arrays = subdivided(*subdivided(*plain(bt.shapes.blob(faces // 32))))
     truth = bt.Mesh(*arrays)
     mesh = noisy(truth, 0.2, 0)
     bt.denoise(noisy(bt.shapes.icosphere(3), 0.2, 0))  # compiles
@@ -176,7 +193,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.denoising", description=__doc__)
     parser.add_argument("meshes", nargs="*", help=f"some of {PAIR}, {TUNED + HELD_OUT}")
     parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--levels", type=float, nargs="+", default=LEVELS)
     parser.add_argument("--folder", type=Path, help="where what was measured is kept")
+    parser.add_argument("--no-more", action="store_true", help="tell what the folder has")
     parser.add_argument("--output", type=Path, default=REPORT)
     parser.add_argument("--faces", type=int, help="time a mesh of so many, and nothing else")
     asked = parser.parse_args(arguments)
@@ -194,7 +213,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
             missing.append(name)
             continue
         print(name, flush=True)
-        found = measured(name, meshes, asked.folder, asked.seeds)
+        found = measured(
+            name, meshes, asked.folder, asked.seeds, asked.levels, more=not asked.no_more
+        )
+        if not found[0]:
+            missing.append(name)
         cases += found[0]
         odd += found[1]
     asked.output.write_text(written(cases, odd, missing))

@@ -156,7 +156,7 @@ def written(cases: Sequence[Case], odd: Sequence[OddCase], missing: Sequence[str
         ]
         for one in odd
     ]
-    absent = f"\nNot there: {', '.join(missing)}.\n" if missing else ""
+    absent = f"\nNot measured: {', '.join(missing)}.\n" if missing else ""
     return "\n".join(
         [
             HEAD + absent,

@@ -15,7 +15,7 @@ PAIR = "Fandisk0.3"
 TUNED = ("blob", "cube", "spot", "fertility", "fandisk", "sphere", "torus", "camel", "pial",
          "ellipsoid")  # fmt: skip
 HELD_OUT = ("bumps", "octahedron", "can", "saddle",
-            "beetle", "face", "conte69", "bunny", "armadillo", "igea")  # fmt: skip
+            "beetle", "face", "conte69", "bunny", "armadillo")  # fmt: skip
 CREASED = ("cube", "fandisk", "octahedron", "can", "beetle")  # the others are organic
 FILES = {
     "spot": "spot_triangulated.obj",
@@ -29,7 +29,6 @@ FILES = {
     "beetle": "beetle.obj",
     "face": "face.obj",
     "conte69": "conte69_32k_lh.gii",
-    "igea": "igea.ply",
 }
 SHAPES: dict[str, Callable[[Any], Any]] = {
     "blob": lambda shapes: shapes.blob(8000),

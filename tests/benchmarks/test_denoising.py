@@ -62,7 +62,7 @@ def test_what_is_kept_is_not_measured_again(tmp_path, monkeypatch):
     target = tmp_path / "report.md"
     main(["ellipsoid", "no-such-mesh", "--folder", str(tmp_path), "--output", str(target)])
     text = target.read_text()
-    assert "Not there: no-such-mesh." in text
+    assert "Not measured: no-such-mesh." in text
     assert "| ellipsoid | strong |" in text
     assert text.count("| ellipsoid 0.") == 3
     assert text == written(*measured("ellipsoid", tmp_path, tmp_path, 3), ["no-such-mesh"])

@@ -31,6 +31,7 @@ _SAME = 0.005  # relative change of a level from cut to cut, twice
 _MANY = 10_000  # vertices; of fewer, changes are larger by chance
 _NEAR = 0.15  # relative change of the level by that at most
 _CAUTION = 1.15  # of σ: see the notes of denoise
+_CAUTION_IF_STRONG = 1.7  # the normals, along which noise is looked for, are off themselves
 _SURE = 2.0  # standard deviations that are no chance
 _SURE_ON_SMOOTH = 4.0  # where there seems to be nothing that low passes cannot do
 _LEAST = 0.005  # weights below this are left out
@@ -55,12 +56,16 @@ class Choice:
 
 @dataclass(frozen=True, eq=False)
 class _Trial:
-    """A mesh, where it counts, and changes of it of the mean square ``square``."""
+    """A mesh, where it counts, and changes of it of the mean square ``square``.
+
+    Mixtures are chosen as if σ were ``caution`` times as large.
+    """
 
     mesh: Mesh
     core: Booleans
     probes: list[Floats]
     square: float
+    caution: float
 
     def mixture(
         self, here: list[Floats], there: list[list[Floats]], sigma: float, simple: int, sure: float
@@ -79,7 +84,7 @@ class _Trial:
         ]
         gram = moves @ moves.T / n
         divergence = np.mean(change, axis=0) / self.square / n
-        cautious = _CAUTION * sigma
+        cautious = self.caution * sigma
         weights = best_mixture(gram, divergence, cautious)
         plain = np.zeros_like(weights)
         plain[:simple] = best_mixture(gram[:simple, :simple], divergence[:simple], cautious)
@@ -122,13 +127,20 @@ class _Trial:
 
 
 def choose(
-    sample: Sample, sigma: float, normals: Floats, *, known: bool = True, plain: bool = False
+    sample: Sample,
+    sigma: float,
+    normals: Floats,
+    *,
+    known: bool = True,
+    plain: bool = False,
+    strong: bool = False,
 ) -> Choice:
     """Choose both mixtures for noise of the level σ along ``normals``, on a sample.
 
     If σ is not ``known``, a better one may be found; if ``plain``, linear filters alone, and no
-    second mixture.
+    second mixture. ``strong`` noise asks for more caution.
     """
+    caution = _CAUTION_IF_STRONG if strong else _CAUTION
     mesh = sample.mesh
     bench = Bench.of(mesh)
     n = mesh.n_vertices
@@ -141,7 +153,7 @@ def choose(
     filters: tuple[Filter, ...] = LINEAR if plain else (*LINEAR, *IN_PARTS, *OF_NORMALS)
     here = filtered(mesh, bench, filters)
     there = [filtered(other, bench, filters) for other in others]
-    trial = _Trial(mesh, sample.core, probes, (_PROBE * sigma) ** 2)
+    trial = _Trial(mesh, sample.core, probes, (_PROBE * sigma) ** 2, caution)
     k = sum(not one.by_length for one in LINEAR)
     level = trial.level(here[1:k], [moved[1:k] for moved in there], sigma)
     sure = _SURE if level is None else _SURE_ON_SMOOTH

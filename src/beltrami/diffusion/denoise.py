@@ -20,7 +20,7 @@ from beltrami.diffusion.choice import (
     choose,
     named,
 )
-from beltrami.diffusion.noise import NoiseLevel, noise_level
+from beltrami.diffusion.noise import STRONG, NoiseLevel, noise_level
 from beltrami.diffusion.patches import components_of, part_of, sample_of
 from beltrami.diffusion.vertex_update import require_agreeing_normals
 from beltrami.errors import BeltramiError, check_name
@@ -184,8 +184,10 @@ def denoise(
     one or two small random changes of the input, from a fixed seed (Ramani, Blu and Unser 2008),
     so the same mesh gives the same result. The mixtures are chosen as if σ were 15 % larger: to
     take some shape for noise costs little, but what is left of the noise spoils the normals; and
-    the chosen mixture fits the noise it was chosen on. The ``predicted_error`` is for σ as it is,
-    and at least σ times the divergence for each vertex, the least that a linear filter leaves.
+    the chosen mixture fits the noise it was chosen on. Where the noise is very strong it is 70 %,
+    because the normals, along which it is looked for, are off. The ``predicted_error`` is for σ as
+    it is, and at least σ times the divergence for each vertex, the least that a linear filter
+    leaves.
     Filters of normals, and the second mixture, are left out where what they gain may be chance.
 
     Components of at least 1000 vertices, the eight largest, have a noise level and mixtures of
@@ -251,7 +253,8 @@ def _choice(
     plain = linear or odd or mesh.n_vertices < _SMALL
     known = noise is not None or odd
     normals = bench.normals[sample.vertices]
-    return found, choose(sample, float(sigma), normals, known=known, plain=plain)
+    strong = found.relative > STRONG
+    return found, choose(sample, float(sigma), normals, known=known, plain=plain, strong=strong)
 
 
 def _told(vertices: Integers, found: NoiseLevel, choice: Choice) -> DenoisedPart:

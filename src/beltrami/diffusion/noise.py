@@ -15,7 +15,7 @@ _NORMAL = 0.6744897501960817  # median of the absolute values of a standard norm
 _SPIKES = 4.5  # kurtosis beyond which noise is not taken for Gaussian, whose kurtosis is 3
 _COLOURED = -0.025  # correlation of neighbours, less that of white noise, of smoothed noise
 _CLIP = 3.0  # standard deviations beyond which values do not count for the correlation
-_STRONG = 0.42  # mean edge lengths, of the noisy mesh, beyond which normals tell little
+STRONG = 0.42  # mean edge lengths, of the noisy mesh, beyond which normals tell little
 
 
 @dataclass(frozen=True)
@@ -137,6 +137,6 @@ def _warnings(kurtosis: float, excess: float, edges: int, relative: float) -> li
         found.append(
             f"the noise is not white: neighbours are alike (the correlation is off by {excess:.3f})"
         )
-    if relative > _STRONG:
+    if relative > STRONG:
         found.append(f"the noise is very strong: {relative:.2f} mean edge lengths")
     return found

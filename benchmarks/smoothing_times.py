@@ -1,0 +1,146 @@
+"""How long smoothing takes, beside every peer that has the method.
+
+python -m benchmarks.smoothing_times [mesh ...]
+
+The same rounds or steps for everybody, from arrays of vertices and faces to arrays of vertices;
+what a library prepares is counted, because smoothing is called once. CPU seconds of all threads,
+the median of some calls, everyone in turn. The rounds of 50 with the operator given are in
+BENCHMARKS.md.
+"""
+
+from __future__ import annotations
+
+from benchmarks.threads import one_thread
+
+if __name__ == "__main__":
+    one_thread()  # before numpy is loaded
+
+import argparse
+import os
+import statistics
+import time
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.cases import FOLDER_VARIABLE
+from benchmarks.noisy_meshes import PAIR, noisy, pair, truth_of
+from benchmarks.packages import package
+from benchmarks.report import grid
+
+MESHES = (PAIR, "blob 134k", "igea")
+Call = Callable[[], Any]
+
+
+def mesh_of(name: str, folder: Path) -> Any:
+    """Return a noisy mesh."""
+    bt = package("beltrami")
+    if name == PAIR:
+        return pair(folder)[1]
+    if name == "igea":
+        read = bt.read_mesh(folder / "igea.ply")
+        return noisy(bt.Mesh(read.vertices, read.faces), 0.2, 0)
+    if name.startswith("blob"):
+        return noisy(bt.shapes.blob(134_000), 0.2, 0)
+    return noisy(truth_of(name, folder), 0.2, 0)
+
+
+def contenders(mesh: Any) -> Iterator[tuple[str, str, Call]]:
+    """Yield (work, library, call), ours first in each work."""
+    bt, trimesh = package("beltrami"), package("trimesh")
+    pyvista, pymeshlab, igl = package("pyvista"), package("pymeshlab"), package("igl")
+    smoothing = package("trimesh.smoothing")
+    V, F = np.array(mesh.vertices), np.array(mesh.faces, dtype=np.int64)
+    edge = float(mesh.edge_lengths.mean())
+
+    def ours(method: str, **options: Any) -> Any:
+        return bt.smooth_mesh(bt.Mesh(V, F), method, **options).vertices
+
+    def of_trimesh(name: str, **options: Any) -> Any:
+        one = trimesh.Trimesh(V.copy(), F.copy(), process=False)
+        return np.array(getattr(smoothing, name)(one, **options).vertices)
+
+    def of_pyvista(name: str, **options: Any) -> Any:
+        return np.array(getattr(pyvista.PolyData.from_regular_faces(V, F), name)(**options).points)
+
+    def of_pymeshlab(name: str, **options: Any) -> Any:
+        meshes = pymeshlab.MeshSet()
+        meshes.add_mesh(pymeshlab.Mesh(V, F.astype(np.int32)))
+        getattr(meshes, f"apply_coord_{name}_smoothing")(**options)
+        return meshes.current_mesh().vertex_matrix()
+
+    def of_igl(times: int) -> Any:
+        L, M = igl.cotmatrix(V, F), igl.massmatrix(V, F, igl.MASSMATRIX_TYPE_VORONOI)
+        solver = package("scipy.sparse.linalg").splu((M - edge**2 / times * L).tocsc())
+        X = V
+        for _ in range(times):
+            X = solver.solve(M @ X)
+        return X
+
+    yield "averaging, 10 rounds", "beltrami", partial(ours, "averaging", steps=10)
+    yield ("averaging, 10 rounds", "trimesh",
+           partial(of_trimesh, "filter_laplacian", iterations=10, lamb=1.0,
+                   volume_constraint=False))  # fmt: skip
+    yield ("averaging, 10 rounds", "PyVista",
+           partial(of_pyvista, "smooth", n_iter=10, relaxation_factor=1.0))  # fmt: skip
+    yield ("averaging, 10 rounds", "PyMeshLab",
+           partial(of_pymeshlab, "laplacian", stepsmoothnum=10, cotangentweight=False))  # fmt: skip
+    yield "Taubin, 10 pairs of rounds", "beltrami", partial(ours, "taubin", steps=10)
+    yield ("Taubin, 10 pairs of rounds", "trimesh",
+           partial(of_trimesh, "filter_taubin", iterations=20))  # fmt: skip
+    yield ("Taubin, 10 pairs of rounds", "PyMeshLab",
+           partial(of_pymeshlab, "taubin", stepsmoothnum=10))  # fmt: skip
+    yield "windowed sinc, degree 20", "beltrami", partial(ours, "windowed_sinc", steps=20)
+    yield "windowed sinc, degree 20", "PyVista", partial(of_pyvista, "smooth_taubin", n_iter=20)
+    flow = {"time": edge**2}
+    yield "implicit fairing, 1 step", "beltrami", partial(ours, "implicit", steps=1, **flow)
+    yield "implicit fairing, 1 step", "libigl, SuperLU", partial(of_igl, 1)
+    yield "implicit fairing, 10 steps", "beltrami", partial(ours, "implicit", steps=10, **flow)
+    yield "implicit fairing, 10 steps", "libigl, SuperLU", partial(of_igl, 10)
+    work = "normals, 20 rounds, then positions, 20"
+    yield work, "beltrami, bilateral", partial(ours, "bilateral_normals", steps=20)
+    yield (work, "PyMeshLab, two steps",
+           partial(of_pymeshlab, "two_steps", stepsmoothnum=1, stepnormalnum=20,
+                   stepfitnum=20))  # fmt: skip
+
+
+def table(mesh: Any, rounds: int) -> str:
+    """Time everybody in turn and write the table of one mesh."""
+    calls = list(contenders(mesh))
+    seconds: dict[tuple[str, str], list[float]] = {}
+    for k in range(rounds + 1):
+        for work, library, call in calls:
+            start = time.process_time()
+            call()
+            if k:  # the first compiles
+                seconds.setdefault((work, library), []).append(time.process_time() - start)
+    rows = []
+    for work in dict.fromkeys(work for work, _, _ in calls):
+        found = {key[1]: statistics.median(times) for key, times in seconds.items()
+                 if key[0] == work}  # fmt: skip
+        mine = next(iter(found))
+        others = {library: value for library, value in found.items() if library != mine}
+        best = min(others, key=lambda library: others[library])
+        rows.append([work, f"{found[mine]:.3f}",
+                     ", ".join(f"{name} {value:.3f}" for name, value in others.items()),
+                     f"{found[mine] / others[best]:.2f} x {best}"])  # fmt: skip
+    return grid(("work", "ours, s", "peers, s", "ratio to the fastest"), rows)
+
+
+def main() -> None:
+    """Print a table for each mesh."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.smoothing_times",
+                                     description=__doc__)  # fmt: skip
+    parser.add_argument("meshes", nargs="*", default=MESHES)
+    parser.add_argument("--rounds", type=int, default=3)
+    asked = parser.parse_args()
+    for name in asked.meshes:
+        mesh = mesh_of(name, Path(os.environ.get(FOLDER_VARIABLE, "")))
+        print(f"\n{name}, {mesh.n_vertices:,} vertices\n\n{table(mesh, asked.rounds)}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
