@@ -9,7 +9,7 @@ import numba
 import numpy as np
 import pytest
 
-from beltrami._jit import kernel, unsigned
+from beltrami._jit import kernel, plain_kernel, unsigned
 
 USE = """
     from beltrami.mesh.shapes import icosphere
@@ -31,6 +31,31 @@ def add(a, b):
 def test_a_kernel_gives_what_python_gives():
     x = np.random.default_rng(66123871).normal(size=7)
     assert np.array_equal(kernel(add)(x, 2.0), add(x, 2.0))
+
+
+def first_of_two_rows(x):
+    row = x[0]
+    return row[1] + x[1, 0]
+
+
+def test_a_plain_kernel_views_arrays_and_cannot_make_them():
+    x = np.arange(6.0).reshape(2, 3)
+    assert plain_kernel(first_of_two_rows)(x) == first_of_two_rows(x)
+    assert sys.getrefcount(x) == 2
+    with pytest.raises(numba.errors.NumbaError):
+        plain_kernel(add)(x, 2.0)
+
+
+def test_without_the_option_a_plain_kernel_is_a_kernel(monkeypatch):
+    honest = numba.njit
+
+    def old(**options):
+        if "_nrt" in options:
+            raise KeyError("Unrecognized options")
+        return honest(**options)
+
+    monkeypatch.setattr(numba, "njit", old)
+    assert plain_kernel(first_of_two_rows)(np.ones((2, 3))) == 2
 
 
 def test_kernels_release_the_gil_and_do_not_reorder_arithmetic():

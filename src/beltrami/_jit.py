@@ -23,6 +23,22 @@ def kernel(function: Function) -> Function:
         return cast(Function, numba.njit(nogil=True)(function))
 
 
+def plain_kernel(function: Function) -> Function:
+    """Compile like ``kernel`` what makes no arrays, and returns none; it may take and view them.
+
+    Nothing counts who holds an array then. Counting is atomic, and takes longer than all else in
+    a small kernel that is called with many arrays. Such a kernel that makes an array does not
+    compile.
+    """
+    options: dict[str, Any] = {"nogil": True, "_nrt": False}
+    try:
+        return cast(Function, numba.njit(cache=True, **options)(function))
+    except RuntimeError:
+        return cast(Function, numba.njit(**options)(function))
+    except KeyError:  # an option of numba that may go away
+        return kernel(function)
+
+
 def unsigned(indices: NDArray[Any]) -> NDArray[Any]:
     """View non-negative integers as unsigned ones, for a kernel to index with.
 

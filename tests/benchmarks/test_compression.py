@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
-from benchmarks.compression import geometric_mean, main, measure, same_faces
+from benchmarks.compressing import measure, same_faces
+from benchmarks.compression import main
+from benchmarks.compression_report import geometric_mean
 from benchmarks.mesh_errors import bytes_at, measure_errors
 
 import beltrami as bt
-from benchmarks import other_codecs
+from benchmarks import compression, other_codecs
 
 
 @pytest.fixture
@@ -65,13 +67,39 @@ def test_errors_are_what_they_say():
     assert measure_errors(flat, rough).visual > measure_errors(flat, rough).rms
 
 
-def test_the_table_is_printed(without_draco, tmp_path, capsys):
+@pytest.fixture
+def small_file(tmp_path):
     bt.write_mesh(tmp_path / "a.ply", bt.shapes.icosphere(1))
-    assert main([str(tmp_path / "a.ply"), "--bits", "5", "7", "--effort", "fast"]) == 0
+    return tmp_path / "a.ply"
+
+
+def test_the_tables_are_printed(without_draco, small_file, capsys, monkeypatch):
+    monkeypatch.setattr(compression, "TIMED_FILES", ("a.ply",))
+    arguments = [str(small_file), "--bits", "5", "7", "--effort", "fast", "--runs", "1"]
+    assert main(arguments) == 0
     printed = capsys.readouterr().out
-    assert "| the same grid | 5 bits | 7 bits |" in printed
-    for measure_name in ("rms", "angle", "visual", "largest"):
-        assert f"| equal {measure_name} | 5 bits | 7 bits |" in printed
+    assert "| bits per vertex (ratio) | 5 bits | 7 bits |" in printed
+    assert printed.count("| ratio, mode | 5 bits | 7 bits |") == 4
+    for name in ("RMS distance of the vertices", "normal angle", "largest distance"):
+        assert f"## At equal {name}" in printed
     assert "| mesh, bits | ours | Draco | meshopt + zstd | xz |" in printed
+    assert "| same grid, 7 bits |" in printed
     assert "(goal 0.65)" in printed
-    assert "(goal 0.5)" in printed
+    assert "(goal 0.50)" in printed
+    assert "| connectivity, worst (a.ply) |" in printed
+    assert "| seconds for 100k vertices, fast: slowest (" in printed
+    assert "| auto, error 1e-3, best | " in printed
+
+
+def test_what_was_kept_is_not_measured_again(without_draco, small_file, tmp_path, monkeypatch):
+    folder, report = tmp_path / "kept", tmp_path / "report.md"
+    arguments = [str(small_file), "--bits", "7", "--effort", "fast", "--folder", str(folder)]
+    assert main([*arguments, "--output", str(report)]) == 0
+    first = report.read_text()
+
+    def broken(name, *rest):
+        assert name == "to compile"
+
+    monkeypatch.setattr(compression, "measure", broken)
+    assert main([*arguments, "--output", str(report)]) == 0
+    assert report.read_text() == first

@@ -4,8 +4,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from PIL import Image
 
 import beltrami as bt
+from beltrami.cli import curve
 from beltrami.io.registry import read_mesh
 
 
@@ -112,30 +114,71 @@ def test_other_files_are_refused(beltrami, sphere, tmp_path):
     assert "not a .btm file" in beltrami("info", wrong).stderr
 
 
-def test_the_curve_has_more_bytes_and_less_error(beltrami, sphere, tmp_path):
+@pytest.fixture
+def few_points(monkeypatch):
+    points = {"grid": range(6, 9), "smooth": range(6, 9), "spectral": range(4, 7)}
+    monkeypatch.setattr(curve, "POINTS", points)
+    monkeypatch.setitem(sys.modules, "DracoPy", None)  # as if it were not installed
+
+
+def test_the_curve_of_each_mode_has_more_bytes_and_less_error(beltrami, sphere, few_points):
     done = beltrami("compress", sphere, "--curve", "--effort", "fast", "--json")
     assert done.exit_code == 0, done.stderr
     rows = json.loads(done.stdout)
-    sizes, errors = [row["bytes"] for row in rows], [row["rms"] for row in rows]
-    assert [row["bits"] for row in rows] == list(range(6, 15))
-    assert sizes == sorted(sizes)
-    assert errors == sorted(errors, reverse=True)
-    assert all(row["rms"] < row["largest"] for row in rows)
-    smaller = [row["bytes_smooth"] for row in rows]
-    assert smaller == sorted(smaller)
-    assert all(0 < row["rms_smooth"] < 1.2 * row["rms"] for row in rows)
+    assert [(row["mode"], row["bits"]) for row in rows] == [
+        (mode, bits) for mode, grids in curve.POINTS.items() for bits in grids
+    ]
+    for mode in curve.POINTS:
+        own = [row for row in rows if row["mode"] == mode]
+        sizes, errors = [row["bytes"] for row in own], [row["rms"] for row in own]
+        assert sizes == sorted(sizes)
+        assert errors == sorted(errors, reverse=True)
+        assert all(row["rms"] < row["largest"] for row in own)
+        assert all(row["bits_per_vertex"] == 8 * row["bytes"] / 162 for row in own)
+        assert {row["of_draco"] for row in own} == {None}
+    mesh = bt.read_mesh(sphere)
+    data = bt.compress(mesh, bits=5, mode="spectral", effort="fast")
+    assert rows[7]["bytes"] == len(data)
     told = beltrami("compress", sphere, "--curve", "--effort", "fast").stdout.splitlines()
-    assert len(told) == 10
-    assert told[1].split()[:2] == ["6", str(sizes[0])]
+    assert len(told) == 1 + len(rows)
+    assert told[1].split()[:3] == ["grid", "6", str(rows[0]["bytes"])]
+    assert "Draco" not in told[0]
 
 
-def test_draco_stands_beside_where_it_is_installed(beltrami, sphere, monkeypatch):
-    fake = SimpleNamespace(
-        encode=lambda *_, compression_level, **__: bytes(100 * compression_level)
-    )
-    monkeypatch.setitem(sys.modules, "DracoPy", fake)
+def test_draco_stands_beside_where_it_is_installed(beltrami, sphere, few_points, monkeypatch):
+    def encode(*_, quantization_bits, compression_level, **__):
+        return bytes(100 * compression_level * 2 ** (quantization_bits - 6))
+
+    monkeypatch.setitem(sys.modules, "DracoPy", SimpleNamespace(encode=encode))
     done = beltrami("compress", sphere, "--curve", "--effort", "fast", "--json")
-    assert {row["draco_bytes"] for row in json.loads(done.stdout)} == {500}
+    rows = json.loads(done.stdout)
+    grid, smooth, draco = (
+        [row for row in rows if row["mode"] == mode] for mode in ("grid", "smooth", "draco")
+    )
+    assert [row["bytes"] for row in draco] == [500, 1000, 2000]
+    assert [row["rms"] for row in draco] == [row["rms"] for row in grid]
+    for one, other in zip(grid, draco, strict=True):
+        assert one["of_draco"] == pytest.approx(one["bytes"] / other["bytes"])
+    one = next(row for row in smooth if draco[2]["rms"] < row["rms"] < draco[0]["rms"])
+    place = np.interp(np.log(one["rms"]), np.log([row["rms"] for row in draco[::-1]]), [2, 1, 0])
+    assert one["of_draco"] == pytest.approx(one["bytes"] / (500 * 2**place))
+    told = beltrami("compress", sphere, "--curve", "--effort", "fast").stdout
+    assert "of Draco's bytes for that error" in told
+
+
+def test_the_curve_is_drawn(beltrami, sphere, few_points, tmp_path):
+    pytest.importorskip("matplotlib")
+    picture = tmp_path / "curve.png"
+    done = beltrami("compress", sphere, "--curve", "--effort", "fast", "-o", picture)
+    assert done.exit_code == 0, done.stderr
+    assert f"wrote {picture}" in done.stdout
+    colors = {tuple(color) for color in np.asarray(Image.open(picture)).reshape(-1, 3).tolist()}
+    assert {(0, 114, 178), (213, 94, 0), (0, 158, 115)} <= colors  # a line for each mode
+
+
+def test_a_curve_is_no_file_of_a_mesh(beltrami, sphere, few_points, tmp_path):
+    done = beltrami("compress", sphere, "--curve", "-o", tmp_path / "a.btm")
+    assert (done.exit_code, ".btm" in done.stderr) == (1, True)
 
 
 def test_an_output_is_needed(beltrami, sphere):

@@ -37,17 +37,22 @@ for name in sys.argv[1:]:
 """
 
 ASSEMBLY = """
-from beltrami.compression import block_basis, coefficients, conquest, positions, transform
+from beltrami.compression import block_basis, coefficients, conquest, positions
+from beltrami.compression import smoothing, transform
 from golden_files import FOLDER
 import beltrami as bt
-bt.decompress(FOLDER / "icosphere.btm")
+bt.decompress(FOLDER / "smooth.btm")
 bt.decompress(FOLDER / "spectral_torus.btm")
 for kernel in (
     positions.code_positions,
     conquest.conquer,
     coefficients.code_coefficients,
     transform.add_up,
-    block_basis._eigenvectors,
+    block_basis.tridiagonalise,
+    block_basis.lowest_eigenvalues,
+    block_basis.tridiagonal_vectors,
+    block_basis.turn_back,
+    smoothing._solve,
 ):
     print("".join(kernel.inspect_asm().values()))
 """

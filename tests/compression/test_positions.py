@@ -10,7 +10,7 @@ from beltrami.compression.neighbourhood import coding_order, look_around
 from beltrami.compression.numbers import decode_offsets, encode_offsets, surroundings
 from beltrami.compression.patches import new_patch, solve
 from beltrami.compression.positions import DEAD_ZONE, level
-from beltrami.compression.residuals import LAPLACE, LOGISTIC, ln, mass
+from beltrami.compression.residuals import LAPLACE, LOGISTIC, between, ln, new_opinions, set_edge
 from beltrami.compression.tables import WHOLE
 from beltrami.compression.varint import Reader, to_varints
 from beltrami.errors import FileFormatError
@@ -121,13 +121,17 @@ def test_neighbourhoods():
 def test_levels_masses_and_logarithms():
     xs = [0.0, 0.1, 0.25, 1.0, 3.3, 17.0, 1e9]
     assert [level(x) for x in xs] == [min(15, int(2 * np.log2(1 + 4 * x))) for x in xs]
-    one = 1 << 20
+    opinions = new_opinions()
+    opinions.shape[:2] = LOGISTIC, LAPLACE
+    opinions.middle[:2], opinions.sharpness[:2] = 10.0, 0.5
     for low, high in [(-3, -1), (-0.5, 2), (0, 4), (1.37, 1.4)]:
         logistic = 1 / (1 + np.exp(-high)) - 1 / (1 + np.exp(-low))
-        assert mass(LOGISTIC, int(low * one), int(high * one)) / WHOLE == pytest.approx(
-            logistic, rel=1e-3
-        )
-    assert mass(LAPLACE, 0, one) / WHOLE == pytest.approx(0.5 - 0.5 / np.e, rel=1e-4)
+        set_edge(2, 10 + 2 * low, opinions)
+        set_edge(3, 10 + 2 * high, opinions)
+        assert between(2, 3, 0, opinions) / WHOLE == pytest.approx(logistic, rel=1e-3)
+    set_edge(2, 10.0, opinions)
+    set_edge(3, 12.0, opinions)
+    assert between(2, 3, 1, opinions) / WHOLE == pytest.approx(0.5 - 0.5 / np.e, rel=1e-4)
     for x in (1, 2, 3, 1000, 12345678, 1 << 40):
         assert ln(x) / 65536 == pytest.approx(np.log(x), abs=2e-3)
 

@@ -15,7 +15,13 @@ from beltrami.cli.outputs import check_compressed_output
 
 CompressedOutput = Annotated[
     Path | None,
-    typer.Option("-o", "--output", metavar="FILE", help="File to write: .btm", show_default=False),
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="File to write: .btm; with --curve a picture",
+        show_default=False,
+    ),
 ]
 
 
@@ -60,7 +66,8 @@ def compress(
     curve: Annotated[
         bool,
         typer.Option(
-            "--curve", help="Write nothing; tell size and error on finer and finer grids."
+            "--curve",
+            help="Tell sizes and errors of all modes instead; -o PICTURE draws them (png, webp).",
         ),
     ] = False,
     json: Json = False,
@@ -75,7 +82,7 @@ def compress(
     from beltrami.io.registry import read_mesh
 
     if curve:
-        tell_curve(mesh, effort, json)
+        tell_curve(mesh, output, effort, json)
         return
     if output is None:
         raise typer.BadParameter("name the file to write: -o FILE")

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._jit import kernel
+from beltrami._jit import plain_kernel
 
 MEANS = 6  # slow blend, fast blend, parallelogram, trusted one, last Laplacian, first parallelogram
 CLASSES = 4
@@ -38,6 +38,8 @@ class Blend(NamedTuple):
         Of the least squares.
     guesses, steps : (k + 1, 3), (3, k) float64
         The guesses at a vertex, and how far they are from the first one.
+    gain : (k,) float64
+        Scratch of the least squares.
     means : (MEANS, 3) float64
         The predictions at a vertex.
     scale : (MEANS,) float64
@@ -53,6 +55,7 @@ class Blend(NamedTuple):
     inverse: NDArray[np.float64]
     guesses: NDArray[np.float64]
     steps: NDArray[np.float64]
+    gain: NDArray[np.float64]
     means: NDArray[np.float64]
     scale: NDArray[np.float64]
 
@@ -70,6 +73,7 @@ def new_blend(n: int, solves: int) -> Blend:
         np.zeros((2, CLASSES, k, k)),
         np.zeros((k + 1, 3)),
         np.zeros((3, k)),
+        np.zeros(k),
         np.zeros((MEANS, 3)),
         np.zeros(MEANS),
     )
@@ -79,7 +83,7 @@ def new_blend(n: int, solves: int) -> Blend:
     return blend
 
 
-@kernel
+@plain_kernel
 def forget(a: int, c: int, blend: Any) -> None:
     """Begin the least squares of one memory and class anew."""
     k = blend.weights.shape[2]
@@ -91,7 +95,7 @@ def forget(a: int, c: int, blend: Any) -> None:
         blend.inverse[a, c, i, i] = _START
 
 
-@kernel
+@plain_kernel
 def predict(c: int, blend: Any) -> None:
     """Blend the guesses for a vertex of class c: fill ``steps`` and ``means``."""
     f, means = blend.guesses, blend.means
@@ -111,7 +115,7 @@ def predict(c: int, blend: Any) -> None:
                 means[a, q] = 0.0
 
 
-@kernel
+@plain_kernel
 def learn(c: int, x: Any, blend: Any) -> None:
     """Learn from the true position of a vertex of class c."""
     weight = 1.0 / (blend.scale[0] * blend.scale[0] + 0.3)
@@ -125,17 +129,23 @@ def learn(c: int, x: Any, blend: Any) -> None:
         if not 0.0 <= trace < 1e6:
             forget(a, c, blend)
         elif trace > 50.0:
-            blend.inverse[a, c] *= 0.5
+            _halve(blend.inverse[a, c])
 
 
-@kernel
+@plain_kernel
+def _halve(P: Any) -> None:
+    for z in range(P.shape[0]):
+        for y in range(P.shape[1]):
+            P[z, y] *= 0.5
+
+
+@plain_kernel
 def _recurse(
     a: int, c: int, q: int, weight: float, memory: float, truth: float, blend: Any
 ) -> None:
     """One step of recursive least squares, for one coordinate."""
     w, P, d = blend.weights[a, c], blend.inverse[a, c], blend.steps[q]
-    k = d.size
-    g = np.zeros(k)
+    g, k = blend.gain, d.size
     error = truth - blend.guesses[0, q]
     energy = 0.0
     for z in range(k):
@@ -156,7 +166,7 @@ def _recurse(
             P[z, y] = (P[z, y] - weight * g[z] * g[y] / share) / memory
 
 
-@kernel
+@plain_kernel
 def note(v: int, c: int, x: Any, axes: Any, blend: Any) -> None:
     """Note how wrong the predictions were at v."""
     blend.level[v] = c

@@ -7,6 +7,7 @@ whose eigenvalues repeat, have one basis too, and not any turn of it (E61, E87).
 from __future__ import annotations
 
 import hashlib
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,10 +15,53 @@ import numpy as np
 from beltrami._arrays import Floats
 from beltrami._jit import kernel
 from beltrami.compression.neighbourhood import Neighbourhood
-from beltrami.compression.tridiagonal import tridiagonalise, turn_back
+from beltrami.compression.tridiagonal import tridiagonalise, turn, turn_back
 from beltrami.compression.tridiagonal_pairs import lowest_eigenvalues, tridiagonal_vectors
 
 _LITTLE = 2.0**-18
+
+
+@dataclass(frozen=True, eq=False)
+class ReducedBlock:
+    """The Laplacian of a block as a tridiagonal matrix, and the way back.
+
+    Parameters
+    ----------
+    diagonal, beside
+        (n,) of the matrix; the last entry of ``beside`` is not used.
+    reflectors, scales
+        (n, n), (n,) of the reflections.
+    """
+
+    diagonal: Floats
+    beside: Floats
+    reflectors: Floats
+    scales: Floats
+
+    def vectors(self, count: int) -> Floats:
+        """Return the ``count`` first eigenvectors, (n, count); the same bits for any count."""
+        return self.turned(self.tridiagonal_vectors(count))
+
+    def tridiagonal_vectors(self, count: int) -> Floats:
+        """Return the ``count`` first eigenvectors of the tridiagonal matrix, (n, count)."""
+        Y, values = np.zeros((len(self.diagonal), count)), np.zeros(count)
+        if count:
+            width = lowest_eigenvalues(self.diagonal, self.beside, values)
+            tridiagonal_vectors(self.diagonal, self.beside, values, width, Y)
+        return Y
+
+    def turned(self, Y: Floats) -> Floats:
+        """Make eigenvectors of the block of its first ones; they are used up."""
+        turn_back(self.reflectors, self.scales, Y)
+        _choose_signs(Y)
+        return Y
+
+    def sizes(self, Y: Floats, x: Floats) -> Floats:
+        """Return the sizes of the coefficients of x (n, d), but for their rounding, (count, d)."""
+        turned = x.copy()
+        turn(self.reflectors, self.scales, turned)
+        found: Floats = np.abs(Y.T @ turned)
+        return found
 
 
 class BlockBasis:
@@ -50,15 +94,18 @@ class BlockBasis:
         The first is constant, so that moving a mesh moves all its approximations (E78). 2 n³
         operations, and 2 n² for each vector.
         """
+        return self.reduced(vertices).vectors(count) if count else np.zeros((len(vertices), 0))
+
+    def reduced(self, vertices: Any) -> ReducedBlock:
+        """Return what all eigenvectors of a block are made of."""
         n = len(vertices)
-        U = np.zeros((n, count))
-        if count:
-            A = np.zeros((n, n))
-            self._place[vertices] = np.arange(n)
-            fill_laplacian(vertices, self._near, self._place, A)
-            self._place[vertices] = -1
-            _eigenvectors(A, U)
-        return U
+        A, reflectors = np.zeros((n, n)), np.zeros((n, n))
+        d, e, scales = np.zeros(n), np.zeros(n), np.zeros(n)
+        self._place[vertices] = np.arange(n)
+        fill_laplacian(vertices, self._near, self._place, A)
+        self._place[vertices] = -1
+        tridiagonalise(A, d, e, reflectors, scales)
+        return ReducedBlock(d, e, reflectors, scales)
 
     def note(self, vectors: Floats) -> None:
         """Let the hash depend on these too."""
@@ -89,15 +136,9 @@ def fill_laplacian(vertices: Any, near: Any, place: Any, A: Any) -> None:
 
 
 @kernel
-def _eigenvectors(A: Any, U: Any) -> None:
-    """Write the first eigenvectors of A: a constant, and the others with a rule for the sign."""
+def _choose_signs(U: Any) -> None:
+    """Make the first vector constant, and give the others a sign by a rule."""
     n, m = U.shape
-    d, e, scales = np.zeros(n), np.zeros(n), np.zeros(n)
-    reflectors, values = np.zeros((n, n)), np.zeros(m)
-    tridiagonalise(A, d, e, reflectors, scales)
-    width = lowest_eigenvalues(d, e, values)
-    tridiagonal_vectors(d, e, values, width, U)
-    turn_back(reflectors, scales, U)
     least = 0.5 / np.sqrt(n)
     for j in range(m):
         i = 0

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._jit import kernel
+from beltrami._jit import plain_kernel
 from beltrami.compression.positions import level
 from beltrami.compression.range_coder import DECODING, POSITION, adapt, code
 from beltrami.compression.residuals import LAPLACE, LOGISTIC, Opinions, code_near, new_opinions
@@ -55,7 +55,7 @@ def new_memory(blocks: int, d: int) -> Memory:
     )
 
 
-@kernel
+@plain_kernel
 def code_coefficients(
     numbers: Any, starts: Any, lengths: Any, terms: int, slack: int, memory: Any,
     state: Any, buffer: Any, known: Any,
@@ -77,11 +77,12 @@ def code_coefficients(
             if state[DECODING] and state[POSITION] > buffer.size + slack:
                 return False
             known[b] = i + 1
-        memory.across[1] = memory.across[0]
+        for c in range(numbers.shape[1]):
+            memory.across[1, c] = memory.across[0, c]
     return True
 
 
-@kernel
+@plain_kernel
 def _ask_end(i: int, b: int, length: int, memory: Any, state: Any, buffer: Any) -> None:
     """Write or read whether block b has coefficients from i on."""
     some = whole(0)
@@ -94,7 +95,7 @@ def _ask_end(i: int, b: int, length: int, memory: Any, state: Any, buffer: Any) 
     memory.going[b] = goes == 1
 
 
-@kernel
+@plain_kernel
 def _code_row(
     i: int, b: int, numbers: Any, starts: Any, memory: Any, state: Any, buffer: Any
 ) -> None:
@@ -120,7 +121,7 @@ def _code_row(
             _note(i, b, c, abs(value), memory)
 
 
-@kernel
+@plain_kernel
 def _code_mean(
     b: int, c: int, numbers: Any, starts: Any, memory: Any, state: Any, buffer: Any
 ) -> int:
@@ -138,7 +139,7 @@ def _code_mean(
     return value
 
 
-@kernel
+@plain_kernel
 def _form_opinions(b: int, c: int, done: float, memory: Any) -> float:
     """Write distributions about 0 of the next coefficient; return the scale to begin with."""
     opinions = memory.opinions
@@ -167,12 +168,12 @@ def _form_opinions(b: int, c: int, done: float, memory: Any) -> float:
     return both
 
 
-@kernel
+@plain_kernel
 def _write(e: int, middle: float, scale: float, shape: int, opinions: Any) -> None:
     opinions.middle[e], opinions.sharpness[e], opinions.shape[e] = middle, 1.0 / scale, shape
 
 
-@kernel
+@plain_kernel
 def _note(i: int, b: int, c: int, size: int, memory: Any) -> None:
     """Learn from the size of a coefficient."""
     memory.before[b, c] = size

@@ -126,12 +126,12 @@ def compress(
 
     Notes
     -----
-    In O(n + m): on the grid about 60 microseconds per vertex with the best effort, 25 with the
+    In O(n + m): on the grid about 30 microseconds per vertex with the best effort, 10 with the
     fast one, and as much again to verify (``python -m benchmarks.compression`` measures them).
-    With ``max_error`` ``"smooth"`` tries two or three steps, each for as long as the grid takes;
-    ``"spectral"`` makes a basis of each block, and with ``max_error`` codes four steps in it, which
-    takes several times as long; ``"auto"`` takes all these together where the shape becomes
-    coarse. The first call in a new installation compiles.
+    ``"spectral"`` makes a basis of each block: about 90, 35 with the fast effort. With
+    ``max_error`` ``"smooth"`` tries two or three steps, each for as long as the grid takes;
+    ``"spectral"`` codes four steps in one basis, which takes about 100; ``"auto"`` takes all these
+    together where the shape becomes coarse. The first call in a new installation compiles.
 
     References
     ----------

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._jit import kernel
+from beltrami._jit import plain_kernel
 from beltrami.compression.front import Front, add, drop, link, lower, new_front, pivot
 from beltrami.compression.range_coder import DECODING, ran_dry
 from beltrami.compression.splits import code_split, find_split
@@ -54,12 +54,16 @@ class Surface(NamedTuple):
 
 
 class Conquest(NamedTuple):
-    """The state of a conquest; ``counts`` are the numbers of faces and of vertices so far."""
+    """The state of a conquest.
+
+    ``counts`` are the numbers of faces and of vertices so far, ``start`` is scratch.
+    """
 
     front: Front
     valences: Valences
     counts: NDArray[np.int64]
     splits: NDArray[np.int64]
+    start: NDArray[np.int64]
 
 
 def new_conquest(faces: int, vertices: int) -> Conquest:
@@ -69,10 +73,11 @@ def new_conquest(faces: int, vertices: int) -> Conquest:
         new_valences(vertices),
         np.zeros(2, np.int64),
         np.full((2, 128), 1 << 15, np.int64),
+        np.zeros((2, 3), np.int64),
     )
 
 
-@kernel
+@plain_kernel
 def conquer(surface: Any, conquest: Any, valence: Any, state: Any, buffer: Any) -> int:
     """Write the connectivity of ``surface``, or read it; return how it ended.
 
@@ -103,7 +108,7 @@ def conquer(surface: Any, conquest: Any, valence: Any, state: Any, buffer: Any) 
     return DONE
 
 
-@kernel
+@plain_kernel
 def _new_vertex(
     old: int, p: int, surface: Any, conquest: Any, valence: Any, state: Any, buffer: Any
 ) -> int:
@@ -122,13 +127,12 @@ def _new_vertex(
     return v
 
 
-@kernel
+@plain_kernel
 def _start(f: int, surface: Any, conquest: Any, valence: Any, state: Any, buffer: Any) -> int:
     """Begin a component with the face f of three new vertices."""
     front = conquest.front
     encoding = state[DECODING] == 0
-    nodes = np.zeros(3, np.int64)
-    made = np.zeros(3, np.int64)
+    made, nodes = conquest.start[0], conquest.start[1]
     for c in range(3):
         old = whole(surface.faces[f, c]) if encoding else 0
         made[c] = _new_vertex(old, -1, surface, conquest, valence, state, buffer)
@@ -146,7 +150,7 @@ def _start(f: int, surface: Any, conquest: Any, valence: Any, state: Any, buffer
     return DONE
 
 
-@kernel
+@plain_kernel
 def _note(f: int, a: int, b: int, c: int, surface: Any, conquest: Any) -> None:
     """Write down a conquered face."""
     i = conquest.counts[0]
@@ -156,13 +160,13 @@ def _note(f: int, a: int, b: int, c: int, surface: Any, conquest: Any) -> None:
         surface.known[f], surface.source[i] = 1, f
 
 
-@kernel
+@plain_kernel
 def _side(h: int, k: int) -> int:
     """Return the side that comes k sides after the half-edge h in its face."""
     return h - h % 3 + (h + k) % 3
 
 
-@kernel
+@plain_kernel
 def _close(p: int, surface: Any, conquest: Any) -> int:
     """Conquer the last face at a node: it has the two neighbours of the node."""
     front = conquest.front
@@ -189,13 +193,13 @@ def _close(p: int, surface: Any, conquest: Any) -> int:
     return DONE
 
 
-@kernel
+@plain_kernel
 def _set_gate(x: int, gate: int, surface: Any, conquest: Any) -> None:
     conquest.front.gate[x] = gate
     surface.node[gate] = x
 
 
-@kernel
+@plain_kernel
 def _advance(p: int, surface: Any, conquest: Any, valence: Any, state: Any, buffer: Any) -> int:
     """Conquer the face at the side after a node: its tip is new, or elsewhere on the front."""
     front = conquest.front
@@ -223,7 +227,7 @@ def _advance(p: int, surface: Any, conquest: Any, valence: Any, state: Any, buff
     return DONE
 
 
-@kernel
+@plain_kernel
 def _lower_ends(p: int, b: int, front: Any) -> None:
     """Count the face that was conquered between p and b, and say what is behind p now."""
     front.behind[p] = front.vertex[b]
@@ -231,7 +235,7 @@ def _lower_ends(p: int, b: int, front: Any) -> None:
     lower(front, p, front.missing[p] - 1)
 
 
-@kernel
+@plain_kernel
 def _split(p: int, surface: Any, conquest: Any, state: Any, buffer: Any) -> int:
     """Conquer a face whose tip is elsewhere: a loop is cut in two, or two become one."""
     front = conquest.front

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from beltrami._arrays import Floats, Integers
-from beltrami._jit import kernel
+from beltrami._jit import plain_kernel
 from beltrami.compression.range_coder import (
     POSITION,
     code_number,
@@ -68,7 +68,7 @@ def _models(d: int) -> Any:
     return np.stack([new_number_model() for _ in range(d + 1)])
 
 
-@kernel
+@plain_kernel
 def _code(gaps: Any, numbers: Any, models: Any, state: Any, buffer: Any) -> None:
     """Write or read the gaps between vertices, and the numbers: 2 z, or -2 z - 1 for z < 0."""
     for i in range(gaps.size):

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beltrami._arrays import Integers
-from beltrami._jit import kernel
+from beltrami._jit import plain_kernel
 from beltrami.compression.range_coder import (
     POSITION,
     adapt,
@@ -110,7 +110,7 @@ def _models() -> Any:
     return np.full((_ROWS, _WIDE), 1 << 15, np.int64)
 
 
-@kernel
+@plain_kernel
 def _code_all(beside: Any, steps: Any, models: Any, state: Any, buffer: Any) -> None:
     """Code each number with the chances for the size of its step."""
     for i in range(beside.size):
@@ -123,7 +123,7 @@ def _code_all(beside: Any, steps: Any, models: Any, state: Any, buffer: Any) -> 
             break
 
 
-@kernel
+@plain_kernel
 def _code_signed(value: int, model: Any, state: Any, buffer: Any) -> int:
     """Write or read a number: is it 0, its sign, its length, its bits after the leading one."""
     some = code(1 if value != 0 else 0, model[0], state, buffer)

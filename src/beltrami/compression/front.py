@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._jit import kernel
+from beltrami._jit import plain_kernel
 from beltrami.compression.tables import whole
 
 BUCKETS = 24
@@ -57,7 +57,7 @@ def new_front(nodes: int) -> Front:
     return Front(a, b, c, d, e, f, g, h, top)
 
 
-@kernel
+@plain_kernel
 def insert(front: Any, x: int) -> None:
     """Put a node at the top of the bucket of its number of missing faces."""
     bucket = min(front.missing[x], BUCKETS - 1)
@@ -68,7 +68,7 @@ def insert(front: Any, x: int) -> None:
     front.top[bucket] = x
 
 
-@kernel
+@plain_kernel
 def remove(front: Any, x: int) -> None:
     """Take a node out of its bucket."""
     above, below = front.up[x], front.down[x]
@@ -80,7 +80,7 @@ def remove(front: Any, x: int) -> None:
         front.up[below] = above
 
 
-@kernel
+@plain_kernel
 def lower(front: Any, x: int, count: int) -> None:
     """Change the number of missing faces of a node to ``count``; it stays in a bucket."""
     remove(front, x)
@@ -88,14 +88,14 @@ def lower(front: Any, x: int, count: int) -> None:
     insert(front, x)
 
 
-@kernel
+@plain_kernel
 def drop(front: Any, x: int) -> None:
     """Take a node out of use."""
     remove(front, x)
     front.missing[x] = 0
 
 
-@kernel
+@plain_kernel
 def add(front: Any, vertex: int, missing: int, gate: int, behind: int) -> int:
     """Make a node, in no loop yet; return its number."""
     x = whole(front.top[BUCKETS])
@@ -106,13 +106,13 @@ def add(front: Any, vertex: int, missing: int, gate: int, behind: int) -> int:
     return x
 
 
-@kernel
+@plain_kernel
 def link(front: Any, x: int, y: int) -> None:
     """Let y follow x in a loop."""
     front.after[x], front.before[y] = y, x
 
 
-@kernel
+@plain_kernel
 def pivot(front: Any) -> int:
     """Return the node that lacks the fewest faces, the latest of them; -1 if there is none."""
     for bucket in range(1, BUCKETS):

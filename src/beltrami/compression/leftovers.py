@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._jit import kernel
+from beltrami._jit import plain_kernel
 from beltrami.compression.range_coder import adapt, code, code_number, code_uniform, ran_dry
 from beltrami.compression.tables import whole
 
@@ -64,7 +64,7 @@ def from_gaps(gaps: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.cumsum(gaps + 1) - 1
 
 
-@kernel
+@plain_kernel
 def code_leftovers(left: Any, n: int, models: Any, state: Any, buffer: Any) -> None:
     """Write them or read them, as far as there are bytes; n is the number of final vertices.
 

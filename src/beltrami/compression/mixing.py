@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._jit import kernel
+from beltrami._jit import plain_kernel
 from beltrami.compression.range_coder import code
 from beltrami.compression.tables import REACH, SQUASH, STRETCH, Table, whole
 
@@ -70,13 +70,13 @@ def new_mixer(
     )
 
 
-@kernel
+@plain_kernel
 def squash(logit: int) -> int:
     """65536 / (1 + e^(-logit / 256)), within 1..65535."""
     return SQUASH[min(max(logit, -REACH), REACH) + REACH]
 
 
-@kernel
+@plain_kernel
 def code_mixed(
     bit: int, row: int, other: int, speed: int, mixer: Any, state: Any, buffer: Any
 ) -> int:
@@ -103,7 +103,7 @@ def code_mixed(
     return bit
 
 
-@kernel
+@plain_kernel
 def learn(weights: Any, row: int, x: Any, step: int) -> None:
     """Move the weights along the gradient, and keep them within 2^26."""
     for e in range(x.size):
@@ -111,7 +111,7 @@ def learn(weights: Any, row: int, x: Any, step: int) -> None:
         weights[row, e] = min(max(w, -(1 << 26)), 1 << 26)
 
 
-@kernel
+@plain_kernel
 def count(bit: int, chance: Any, seen: Any, rates: Any, e: int, context: int) -> None:
     """Move the probability of a context towards the bit."""
     times = seen[e, context]

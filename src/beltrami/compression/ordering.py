@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from beltrami._arrays import Integers
-from beltrami._jit import kernel
+from beltrami._jit import plain_kernel
 from beltrami.compression.range_coder import (
     adapt,
     code,
@@ -57,7 +57,7 @@ def _models() -> Any:
     return np.full((2, 128), 1 << 15, np.int64)
 
 
-@kernel
+@plain_kernel
 def _code_order(order: Any, tree: Any, models: Any, state: Any, buffer: Any) -> None:
     """Code ranks among the vertices that are left; ``tree`` (n + 1,) counts these (Fenwick)."""
     n = order.size
@@ -86,7 +86,7 @@ def _code_order(order: Any, tree: Any, models: Any, state: Any, buffer: Any) -> 
         expected = min(rank, left - 2)
 
 
-@kernel
+@plain_kernel
 def _rank(tree: Any, v: int) -> int:
     """Count the vertices below v that are left."""
     total = whole(0)
@@ -96,7 +96,7 @@ def _rank(tree: Any, v: int) -> int:
     return total
 
 
-@kernel
+@plain_kernel
 def _take(tree: Any, rank: int) -> int:
     """Return the vertex of this rank among those that are left, and take it away."""
     n = tree.size - 1

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._jit import kernel
+from beltrami._jit import plain_kernel
 from beltrami.compression.tables import whole
 
 _ROOM = 160  # vertices of a patch
@@ -63,7 +63,7 @@ def new_patch(n: int) -> Patch:
     )
 
 
-@kernel
+@plain_kernel
 def gather(v: int, rings: int, near: Any, known: Any, patch: Any) -> int:
     """Collect v and the rings around it, and number what is unknown; return how many they are."""
     number = patch.ends[7] + 1
@@ -94,7 +94,7 @@ def gather(v: int, rings: int, near: Any, known: Any, patch: Any) -> int:
     return unknowns
 
 
-@kernel
+@plain_kernel
 def _add(k: int, factor: float, patch: Any, x: Any) -> None:
     """Add the square of one equation of k terms, times a factor, to the system."""
     terms, weights, column = patch.terms, patch.weights, patch.column
@@ -119,7 +119,7 @@ def _add(k: int, factor: float, patch: Any, x: Any) -> None:
                 patch.matrix[i, j] += f * weights[b]
 
 
-@kernel
+@plain_kernel
 def _add_laplacians(rings: int, factor: float, near: Any, patch: Any, x: Any) -> None:
     """Each vertex whose neighbours are all in the patch should be their mean."""
     number = patch.ends[7]
@@ -144,7 +144,7 @@ def _add_laplacians(rings: int, factor: float, near: Any, patch: Any, x: Any) ->
             _add(k, factor, patch, x)
 
 
-@kernel
+@plain_kernel
 def _add_parallelograms(rings: int, factor: float, near: Any, patch: Any, x: Any) -> None:
     """Each two neighbouring faces of the patch should be a parallelogram."""
     number, place, corners = patch.ends[7], patch.place, near.corners
@@ -166,7 +166,7 @@ def _add_parallelograms(rings: int, factor: float, near: Any, patch: Any, x: Any
             _add(4, factor, patch, x)
 
 
-@kernel
+@plain_kernel
 def _add_edges(rings: int, factor: float, near: Any, patch: Any, x: Any) -> None:
     """Every edge should be a little short, so that the system is never singular."""
     number = patch.ends[7]
@@ -188,7 +188,7 @@ def _add_edges(rings: int, factor: float, near: Any, patch: Any, x: Any) -> None
                 patch.matrix[a, b] -= factor
 
 
-@kernel
+@plain_kernel
 def _eliminate(unknowns: int, patch: Any) -> None:
     """Eliminate the unknowns from the last to the second."""
     matrix, right = patch.matrix, patch.right
@@ -205,7 +205,7 @@ def _eliminate(unknowns: int, patch: Any) -> None:
                     right[a, q] -= f * right[p, q]
 
 
-@kernel
+@plain_kernel
 def solve(
     v: int, rings: int, laplacian: float, parallelogram: float, edge: float,
     near: Any, known: Any, patch: Any, x: Any, out: Any,

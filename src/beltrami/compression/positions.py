@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._jit import kernel
+from beltrami._jit import plain_kernel
 from beltrami.compression.blending import CLASSES, MEANS, Blend, learn, new_blend, note, predict
 from beltrami.compression.guesses import frame, guess
 from beltrami.compression.patches import Patch, gather, new_patch
@@ -70,7 +70,7 @@ def new_coder(n: int, solves: int, truth: NDArray[np.float64]) -> Coder:
     )
 
 
-@kernel
+@plain_kernel
 def code_positions(
     numbers: Any, order: Any, first: int, last: int, solves: Any, near: Any, coder: Any,
     state: Any, buffer: Any,
@@ -95,7 +95,7 @@ def code_positions(
         coder.known[v] = True
 
 
-@kernel
+@plain_kernel
 def _trust(j: int, u: int, c: int, coder: Any) -> float:
     """Return how much the errors at the place j of the patch say about its middle."""
     if j < coder.patch.ends[1]:
@@ -103,7 +103,7 @@ def _trust(j: int, u: int, c: int, coder: Any) -> float:
     return 0.7 if coder.blend.level[u] == c else 0.35
 
 
-@kernel
+@plain_kernel
 def gather_known(v: int, c: int, near: Any, coder: Any) -> int:
     """Collect two rings around v, and write the scales of the predictions there."""
     blend, patch = coder.blend, coder.patch
@@ -121,7 +121,7 @@ def gather_known(v: int, c: int, near: Any, coder: Any) -> int:
     return size
 
 
-@kernel
+@plain_kernel
 def _spread(c: int, size: int, coder: Any) -> None:
     """Write the covariances of the slow blend: of the class along the frame, and of the ring."""
     blend, C, axes = coder.blend, coder.covariance, coder.axes
@@ -151,7 +151,7 @@ def _spread(c: int, size: int, coder: Any) -> None:
         C[1, a, a] += 0.1
 
 
-@kernel
+@plain_kernel
 def _condition(h: int, q: int, e0: float, e1: float, C: Any) -> Any:
     """Return (shift, variance) of coordinate q when the errors of those before are known."""
     variance = C[h, q, q]
@@ -172,7 +172,7 @@ def _condition(h: int, q: int, e0: float, e1: float, C: Any) -> Any:
     return shift, variance
 
 
-@kernel
+@plain_kernel
 def level(x: float) -> int:
     """Return 2 log2(1 + 4 x), rounded down and at most 15."""
     y, power, k = 1.0 + 4.0 * x, 1.0, 0
@@ -185,12 +185,12 @@ def level(x: float) -> int:
     return k
 
 
-@kernel
+@plain_kernel
 def _write(e: int, middle: float, scale: float, shape: int, opinions: Any) -> None:
     opinions.middle[e], opinions.sharpness[e], opinions.shape[e] = middle, 1.0 / scale, shape
 
 
-@kernel
+@plain_kernel
 def _form_opinions(q: int, e0: float, e1: float, coder: Any) -> Any:
     """Write the distributions of coordinate q; return the middle and the scale to begin with."""
     blend, opinions = coder.blend, coder.opinions
@@ -214,19 +214,19 @@ def _form_opinions(q: int, e0: float, e1: float, coder: Any) -> Any:
     return middle, spread * 1.6
 
 
-@kernel
+@plain_kernel
 def _apart(a: float, b: float) -> int:
     """Return the distance of two predictions in half steps, at most 7."""
     return whole(min(abs(a - b) * 2.0, 7.0))
 
 
-@kernel
+@plain_kernel
 def _nearest(x: float) -> int:
     """Round to a whole number, and a little more than half to 0: that costs less than it errs."""
     return whole(0) if abs(x) < DEAD_ZONE else whole(np.floor(x + 0.5))
 
 
-@kernel
+@plain_kernel
 def _code_vertex(v: int, c: int, i: int, numbers: Any, coder: Any, state: Any, buffer: Any) -> None:
     """Write or read the three numbers of a vertex."""
     opinions = coder.opinions

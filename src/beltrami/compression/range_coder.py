@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._jit import kernel
+from beltrami._jit import plain_kernel
 from beltrami.compression.tables import Table, whole
 
 # The state of a coder is an array; its entries:
@@ -28,7 +28,7 @@ def new_decoder(data: NDArray[np.uint8]) -> Table:
     return np.array([0, _ALL, int.from_bytes(first, "big"), 4, 1, 0], np.int64)
 
 
-@kernel
+@plain_kernel
 def code(bit: int, p: int, state: Any, buffer: Any) -> int:
     """Write a bit that is 1 with probability p / 65536, or read one; return it.
 
@@ -58,7 +58,7 @@ def code(bit: int, p: int, state: Any, buffer: Any) -> int:
     return bit
 
 
-@kernel
+@plain_kernel
 def code_uniform(value: int, count: int, state: Any, buffer: Any) -> int:
     """Write or read a number of 0..count-1, all equally likely, by halves; return it."""
     low, size = whole(0), whole(count)
@@ -73,7 +73,7 @@ def code_uniform(value: int, count: int, state: Any, buffer: Any) -> int:
     return low
 
 
-@kernel
+@plain_kernel
 def code_number(value: int, model: Any, state: Any, buffer: Any) -> int:
     """Write or read a number >= 0 by its length and its bits (Elias gamma, adaptive).
 
@@ -100,7 +100,7 @@ def code_number(value: int, model: Any, state: Any, buffer: Any) -> int:
     return found - 1
 
 
-@kernel
+@plain_kernel
 def adapt(model: Any, i: int, bit: int) -> None:
     """Move a probability of 16 bits by 1/16 towards what was seen; it stays within 16 bits."""
     if bit:
@@ -131,7 +131,7 @@ def finished(state: Table, buffer: NDArray[np.uint8]) -> bytes | None:
     return buffer[:position].tobytes()
 
 
-@kernel
+@plain_kernel
 def ran_dry(state: Any, buffer: Any) -> bool:
     """Whether more was read than was ever written: these are not the right bytes."""
     return state[DECODING] == 1 and state[POSITION] > buffer.size + 4

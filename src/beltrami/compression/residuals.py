@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._jit import kernel
+from beltrami._jit import plain_kernel
 from beltrami.compression.mixing import Mixer, code_mixed, new_mixer
-from beltrami.compression.tables import CELLS, LN, LN_CELLS, TAIL_REACH, TAILS, WHOLE, whole
+from beltrami.compression.tables import LN, LN_CELLS, TAIL_REACH, TAILS, WHOLE, whole
 
 OPINIONS = 11
 LOGISTIC, LAPLACE = 0, 1
@@ -19,6 +19,9 @@ _SURE = 2350  # the largest logit of an opinion
 _SPEED = 655
 _STEPS = 40
 _GRAIN = 20  # bits after the point of a number of scales
+_CELL = 14  # of them within a cell of the table of tails
+LEAST, MOST = 0, 1  # edges beyond all numbers; three others follow
+_EDGES = 5
 
 
 class Opinions(NamedTuple):
@@ -36,6 +39,8 @@ class Opinions(NamedTuple):
         0..127, 0..127 and 0..127.
     mixer
         Of the decisions.
+    places, tails : (5, OPINIONS) int64
+        Of the edges between numbers that were looked at, so that each is looked up once.
     """
 
     middle: NDArray[np.float64]
@@ -43,6 +48,8 @@ class Opinions(NamedTuple):
     shape: NDArray[np.int64]
     context: NDArray[np.int64]
     mixer: Mixer
+    places: NDArray[np.int64]
+    tails: NDArray[np.int64]
 
 
 def new_opinions() -> Opinions:
@@ -54,37 +61,42 @@ def new_opinions() -> Opinions:
         np.zeros(OPINIONS, np.int64),
         np.zeros(8, np.int64),
         mixer,
+        np.zeros((_EDGES, OPINIONS), np.int64),
+        np.zeros((_EDGES, OPINIONS), np.int64),
     )
 
 
-@kernel
-def _scales(edge: float, opinions: Any, e: int) -> int:
-    """Return how many scales an edge is above the middle, with ``_GRAIN`` bits after the point."""
-    z = (edge - opinions.middle[e]) * opinions.sharpness[e]
-    z = min(max(z, -float(TAIL_REACH)), float(TAIL_REACH))
-    return whole(z * (1 << _GRAIN))
+@plain_kernel
+def set_edge(slot: int, edge: float, opinions: Any) -> None:
+    """Note where an edge lies for each opinion, and the mass beyond it.
+
+    In scales from the middle, with ``_GRAIN`` bits after the point; the mass beyond an edge below
+    the middle is that below it. A table, linear in between.
+    """
+    places, tails = opinions.places[slot], opinions.tails[slot]
+    for e in range(OPINIONS):
+        z = (edge - opinions.middle[e]) * opinions.sharpness[e]
+        z = min(max(z, -float(TAIL_REACH)), float(TAIL_REACH))
+        place = whole(z * (1 << _GRAIN))
+        places[e] = place
+        away = abs(place)
+        i, rest = away >> _CELL, away & ((1 << _CELL) - 1)
+        above = TAILS[opinions.shape[e], i]
+        tails[e] = above - (((above - TAILS[opinions.shape[e], i + 1]) * rest) >> _CELL)
 
 
-@kernel
-def _tail(shape: int, z: int) -> int:
-    """Return the mass beyond z >= 0: a table, linear in between."""
-    step = (1 << _GRAIN) // CELLS
-    i, rest = z // step, z % step
-    above = TAILS[shape, i]
-    return above - ((above - TAILS[shape, i + 1]) * rest) // step
+@plain_kernel
+def between(low: int, high: int, e: int, opinions: Any) -> int:
+    """Return the mass between the edges of two slots, out of ``WHOLE``."""
+    below, above = opinions.tails[low, e], opinions.tails[high, e]
+    if opinions.places[low, e] >= 0:
+        return below - above
+    if opinions.places[high, e] <= 0:
+        return above - below
+    return WHOLE - above - below
 
 
-@kernel
-def mass(shape: int, low: int, high: int) -> int:
-    """Return the mass between two edges, out of ``WHOLE``."""
-    if low >= 0:
-        return _tail(shape, low) - _tail(shape, high)
-    if high <= 0:
-        return _tail(shape, -high) - _tail(shape, -low)
-    return WHOLE - _tail(shape, high) - _tail(shape, -low)
-
-
-@kernel
+@plain_kernel
 def ln(x: int) -> int:
     """Return ln(x) for an integer x >= 1, in 16 bits after the point."""
     k = 0
@@ -95,25 +107,21 @@ def ln(x: int) -> int:
     return k * LN[LN_CELLS] + LN[mantissa & (LN_CELLS - 1)]
 
 
-@kernel
-def _ask(a: int, b: int, c: int, d: int, inside: bool, opinions: Any) -> None:
-    """Write the logit of each opinion that the number is in a..b, not in c..d.
+@plain_kernel
+def _ask(a: int, b: int, c: int, d: int, opinions: Any) -> None:
+    """Write the logit of each opinion that the number is between the edges a and b, not c and d.
 
-    With ``inside``, the alternative is all that is not in a..b.
+    With c = d the alternative is all that is not between a and b.
     """
     logits = opinions.mixer.logits
     for e in range(OPINIONS):
-        shape = opinions.shape[e]
-        first = mass(shape, _scales(a - 0.5, opinions, e), _scales(b + 0.5, opinions, e))
-        if inside:
-            second = WHOLE - first
-        else:
-            second = mass(shape, _scales(c - 0.5, opinions, e), _scales(d + 0.5, opinions, e))
+        first = between(a, b, e, opinions)
+        second = WHOLE - first if c == d else between(c, d, e, opinions)
         logit = (ln(first + _NOISE) - ln(second + _NOISE)) >> 8
         logits[e] = min(max(logit, -_SURE), _SURE)
 
 
-@kernel
+@plain_kernel
 def _decide(
     bit: int, step: int, part: int, sign: int, opinions: Any, state: Any, buffer: Any
 ) -> int:
@@ -130,7 +138,7 @@ def _decide(
     )
 
 
-@kernel
+@plain_kernel
 def code_near(
     value: int, middle: float, scale: float, opinions: Any, state: Any, buffer: Any
 ) -> int:  # fmt: skip
@@ -145,34 +153,41 @@ def code_near(
         spread += 1
     part = whole((middle - np.floor(middle)) * 8) if spread <= 1 else 0
     part = min(max(part, 0), 7)
+    set_edge(2, nearest - 0.5, opinions)
     if spread == 0:
-        _ask(nearest, nearest, 0, 0, True, opinions)
+        set_edge(3, nearest + 0.5, opinions)
+        _ask(2, 3, 0, 0, opinions)
         if _decide(1 if value == nearest else 0, 0, part, 0, opinions, state, buffer):
             return nearest
-        _ask(nearest + 1, FAR, -FAR, nearest - 1, False, opinions)
+    set_edge(LEAST, -FAR - 0.5, opinions)
+    set_edge(MOST, FAR + 0.5, opinions)
+    if spread == 0:
+        _ask(3, MOST, LEAST, 2, opinions)
         up = _decide(1 if value > nearest else 0, 1, part, 0, opinions, state, buffer)
-        base, size, step = nearest + (1 if up else -1), whole(1), 2
+        base, size, step, inner = nearest + (1 if up else -1), whole(1), 2, 3 if up else 2
     else:
-        _ask(nearest, FAR, -FAR, nearest - 1, False, opinions)
+        _ask(2, MOST, LEAST, 2, opinions)
         up = _decide(1 if value >= nearest else 0, 4, part, 0, opinions, state, buffer)
-        base, size, step = nearest - (0 if up else 1), whole(1) << (spread - 1), 1
-    return _code_away(value, base, size, step, spread, 1 if up else -1, opinions, state, buffer)
+        base, size, step, inner = nearest - (0 if up else 1), whole(1) << (spread - 1), 1, 2
+    sign, shift = 1 if up else -1, 0 if spread == 0 else 4
+    return _code_away(value, base, size, step, shift, sign, inner, opinions, state, buffer)
 
 
-@kernel
+@plain_kernel
 def _code_away(
-    value: int, base: int, size: int, step: int, spread: int, sign: int,
+    value: int, base: int, size: int, step: int, shift: int, sign: int, inner: int,
     opinions: Any, state: Any, buffer: Any,
 ) -> int:  # fmt: skip
-    """Write or read a number from ``base`` on in the direction ``sign``."""
-    shift = 0 if spread == 0 else 4
+    """Write or read a number from ``base`` on in the direction ``sign``; its edge is ``inner``."""
+    outer = 5 - inner
     while True:
         end = base + sign * (size - 1)
-        low, high = min(base, end), max(base, end)
+        set_edge(outer, end + 0.5 * sign, opinions)
         if sign > 0:
-            _ask(low, high, high + 1, FAR, False, opinions)
+            _ask(inner, outer, outer, MOST, opinions)
         else:
-            _ask(low, high, -FAR, low - 1, False, opinions)
+            _ask(outer, inner, LEAST, outer, opinions)
+        low, high = min(base, end), max(base, end)
         bit = 1 if low <= value <= high else 0
         number = min(step, 11) + shift
         if _decide(bit, number, 0, sign, opinions, state, buffer) or size > FAR >> 4:
@@ -181,15 +196,27 @@ def _code_away(
         if step > 2:
             size *= 2
         step += 1
-    step = 0
+        inner, outer = outer, inner
+    below, above = (inner, outer) if sign > 0 else (outer, inner)
+    return _halve(value, low, high, below, above, sign, opinions, state, buffer)
+
+
+@plain_kernel
+def _halve(
+    value: int, low: int, high: int, below: int, above: int, sign: int,
+    opinions: Any, state: Any, buffer: Any,
+) -> int:  # fmt: skip
+    """Write or read a number of low..high, between the edges ``below`` and ``above``."""
+    step, between = 0, 4
     while low < high:
         middle = (low + high) >> 1
-        _ask(low, middle, middle + 1, high, False, opinions)
+        set_edge(between, middle + 0.5, opinions)
+        _ask(below, between, between, above, opinions)
         bit = 1 if value <= middle else 0
         number = 16 + min(2 * min(step, 11), 23)
         if _decide(bit, number, 0, sign, opinions, state, buffer):
-            high = middle
+            high, above, between = middle, between, above
         else:
-            low = middle + 1
+            low, below, between = middle + 1, between, below
         step += 1
     return low

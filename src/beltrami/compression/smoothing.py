@@ -13,12 +13,13 @@ from typing import Any
 import numpy as np
 
 from beltrami._arrays import Floats, Integers
-from beltrami._jit import kernel
+from beltrami._jit import kernel, plain_kernel
 from beltrami.compression.neighbourhood import Neighbourhood
 from beltrami.compression.tables import whole
 
 # How much smoothness counts, for the numbers 1, 2, ... of the file; 0 is none.
 WEIGHTS = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
+_COLUMNS = 3  # coordinates at a time
 
 
 def smoothed(numbers: Integers | Floats, near: Neighbourhood, choice: int) -> Floats:
@@ -31,10 +32,14 @@ def smoothed(numbers: Integers | Floats, near: Neighbourhood, choice: int) -> Fl
     q = numbers.astype(np.float64)
     if not choice:
         return q
+    n, d = q.shape
+    sides, most = _parallelograms(near.corners, near.opposite, n)
     x = np.empty_like(q)
-    for column in range(q.shape[1]):
-        middle = np.ascontiguousarray(q[:, column])
-        x[:, column] = _solve(middle, near.corners, near.opposite, WEIGHTS[choice - 1])
+    for first in range(0, d, _COLUMNS):
+        middle = np.zeros((n, _COLUMNS))
+        middle[:, : d - first] = q[:, first : first + _COLUMNS]
+        solved = _solve(middle, sides, most, WEIGHTS[choice - 1])
+        x[:, first : first + _COLUMNS] = solved[:, : d - first]
     return x
 
 
@@ -49,54 +54,67 @@ def best_choice(x: Floats, numbers: Integers | Floats, near: Neighbourhood) -> i
 
 
 @kernel
-def _departures(x: Any, corners: Any, opposite: Any, out: Any) -> int:
-    """Write PᵀP x / 6; return the largest number of parallelograms at a vertex."""
-    out[:] = 0.0
-    count = np.zeros(x.size, np.int32)
+def _parallelograms(corners: Any, opposite: Any, n: int) -> Any:
+    """Return (v, w, a, b) of each two faces with the side a b, and the most of them at a vertex."""
+    sides, count = np.empty((corners.size // 2, 4), np.uint32), np.zeros(n, np.int32)
+    size, most = whole(0), whole(0)
     for c in range(corners.size):
         o = whole(opposite[c])
         if o < c:
             continue
-        v, w = corners[c], corners[o]
         f = c - c % 3
-        a, b = corners[f + (c + 1) % 3], corners[f + (c + 2) % 3]
-        r = (x[v] + x[w] - x[a] - x[b]) / 6.0
-        out[v] += r
-        out[w] += r
-        out[a] -= r
-        out[b] -= r
-        for u in (v, w, a, b):
+        sides[size, 0], sides[size, 1] = corners[c], corners[o]
+        sides[size, 2], sides[size, 3] = corners[f + (c + 1) % 3], corners[f + (c + 2) % 3]
+        for u in sides[size]:
             count[u] += 1
-    most = whole(0)
-    for u in range(x.size):
+        size += 1
+    for u in range(n):
         most = max(most, whole(count[u]))
-    return most
+    return sides[:size], most
+
+
+@plain_kernel
+def _departures(x: Any, sides: Any, out: Any) -> None:
+    """Write PᵀP x / 6."""
+    out[:] = 0.0
+    for k in range(sides.shape[0]):
+        v, w, a, b = x[sides[k, 0]], x[sides[k, 1]], x[sides[k, 2]], x[sides[k, 3]]
+        p, q, r, s = out[sides[k, 0]], out[sides[k, 1]], out[sides[k, 2]], out[sides[k, 3]]
+        for c in range(_COLUMNS):
+            y = (v[c] + w[c] - a[c] - b[c]) / 6.0
+            p[c] += y
+            q[c] += y
+            r[c] -= y
+            s[c] -= y
 
 
 @kernel
-def _solve(q: Any, corners: Any, opposite: Any, weight: float) -> Any:
+def _solve(q: Any, sides: Any, most: int, weight: float) -> Any:
     """Solve, and keep each coordinate within half a step of q."""
-    d, r, x = np.empty(q.size), np.empty(q.size), q.copy()
-    # The spectrum of PᵀP / 6 is within 0 and 4 times the most parallelograms at a vertex, over 6.
-    most = _departures(x, corners, opposite, d)
-    high = 1.0 + weight * 4.0 * most / 6.0
-    centre, half = (high + 1.0) / 2.0, (high - 1.0) / 2.0
-    for i in range(q.size):
-        r[i] = -weight * d[i]
-        d[i] = r[i] / centre
+    d, r, x = np.empty_like(q), np.empty_like(q), q.copy()
     if most == 0:
         return x
+    # The spectrum of PᵀP / 6 is within 0 and 4 times the most parallelograms at a vertex, over 6.
+    high = 1.0 + weight * 4.0 * most / 6.0
+    centre, half = (high + 1.0) / 2.0, (high - 1.0) / 2.0
+    _departures(x, sides, d)
+    for i in range(q.shape[0]):
+        for c in range(_COLUMNS):
+            r[i, c] = -weight * d[i, c]
+            d[i, c] = r[i, c] / centre
     ratio = centre / half
     rho = 1.0 / ratio
-    product = np.empty(q.size)
+    product = np.empty_like(q)
     for _ in range(10 + whole(5.0 * np.sqrt(high))):
-        _departures(d, corners, opposite, product)
+        _departures(d, sides, product)
         following = 1.0 / (2.0 * ratio - rho)
-        for i in range(q.size):
-            x[i] += d[i]
-            r[i] -= d[i] + weight * product[i]
-            d[i] = following * rho * d[i] + 2.0 * following / half * r[i]
+        for i in range(q.shape[0]):
+            for c in range(_COLUMNS):
+                x[i, c] += d[i, c]
+                r[i, c] -= d[i, c] + weight * product[i, c]
+                d[i, c] = following * rho * d[i, c] + 2.0 * following / half * r[i, c]
         rho = following
-    for i in range(q.size):
-        x[i] = min(max(x[i], q[i] - 0.5), q[i] + 0.5)
+    for i in range(q.shape[0]):
+        for c in range(_COLUMNS):
+            x[i, c] = min(max(x[i, c], q[i, c] - 0.5), q[i, c] + 0.5)
     return x

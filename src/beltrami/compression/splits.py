@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from beltrami._jit import kernel
+from beltrami._jit import plain_kernel
 from beltrami.compression.range_coder import DECODING, code_number, code_uniform
 from beltrami.compression.tables import whole
 
 _NEAR = 200  # nodes to look at on each side; farther ones are named by their number
 
 
-@kernel
+@plain_kernel
 def find_split(h: int, twins: Any, known: Any, node: Any) -> Any:
     """Return the node that the face of gate h touches, and the unknown faces on its later side.
 
@@ -27,7 +27,7 @@ def find_split(h: int, twins: Any, known: Any, node: Any) -> Any:
     return whole(node[side]), fan
 
 
-@kernel
+@plain_kernel
 def code_split(x: int, fan: int, p: int, front: Any, models: Any, state: Any, buffer: Any) -> Any:
     """Write or read the node x that is touched, and the unknown faces on its later side.
 
@@ -50,7 +50,7 @@ def code_split(x: int, fan: int, p: int, front: Any, models: Any, state: Any, bu
     return x, fan
 
 
-@kernel
+@plain_kernel
 def _distance(x: int, p: int, front: Any) -> int:
     """Return the code of the way from p, or from the node after it, to x; 0 if it is long."""
     ahead, back = whole(front.after[p]), p
@@ -63,7 +63,7 @@ def _distance(x: int, p: int, front: Any) -> int:
     return 0
 
 
-@kernel
+@plain_kernel
 def _at_distance(code: int, p: int, front: Any) -> int:
     """Return the node at the end of a way, -1 if the way is too long."""
     if code < 2 or code >= 2 * _NEAR:

@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from beltrami._arrays import Floats, Integers
-from beltrami._jit import kernel
+from beltrami._arrays import Booleans, Floats, Integers
+from beltrami._jit import plain_kernel
 from beltrami.compression.block_basis import BlockBasis
 
 DEAD_ZONE = 0.6  # of a step: smaller coefficients become 0
-_ENOUGH = 1e-9  # of the energy, for the rounding of sums
+_ROUNDING = 1e-9  # of the length of x: more than that of sums
 
 
 def analyse(
@@ -19,24 +19,21 @@ def analyse(
 ) -> tuple[Floats, Floats]:
     """Return (vectors (n, k), coefficients (k, d)) of a block; those left out are below ``least``.
 
-    At most ``most`` of them, whatever is left out. By Parseval: a quarter of the vectors first,
-    all of them if what is left of x could hide a larger coefficient.
+    At most ``most`` of them, whatever is left out. How many are needed is found in the
+    tridiagonal eigenvectors, of which only those are turned back.
     """
-    n = len(vertices)
     local = np.ascontiguousarray(x[vertices])
-    energy = (local**2).sum(axis=0)
-    count, whole = min(most, n, max(32, n // 4)), min(most, n)
-    while True:
-        U = basis.vectors(vertices, count)
-        c = np.zeros((count, x.shape[1]))
-        project(U, local, c)
-        left = energy * (1 + _ENOUGH) - (c**2).sum(axis=0)
-        if count == whole or (left <= least**2).all():
-            return U, c
-        count = whole
+    block = basis.reduced(vertices)
+    Y = block.tridiagonal_vectors(min(most, len(vertices)))
+    rounding = _ROUNDING * float(np.sqrt((local**2).sum()))
+    count = length_of(block.sizes(Y, local) > least - rounding)
+    U = block.turned(np.ascontiguousarray(Y[:, : max(count, 1)]))
+    c = np.zeros((U.shape[1], x.shape[1]))
+    project(U, local, c)
+    return U, c
 
 
-@kernel
+@plain_kernel
 def project(U: Any, x: Any, c: Any) -> None:
     """Add Uᵀ x to c."""
     n, m = U.shape
@@ -47,7 +44,7 @@ def project(U: Any, x: Any, c: Any) -> None:
                 c[j, q] += f * row[j]
 
 
-@kernel
+@plain_kernel
 def add_up(U: Any, c: Any, vertices: Any, x: Any) -> None:
     """Write U c at the vertices; rows of c beyond the columns of U are not looked at."""
     n, m = U.shape
@@ -74,7 +71,7 @@ def rounded(c: Floats) -> Integers:
     return numbers.astype(np.int64)
 
 
-def length_of(numbers: Integers) -> int:
+def length_of(numbers: Integers | Booleans) -> int:
     """Return how many rows there are up to the last one that is not 0."""
     rows = np.flatnonzero(numbers.any(axis=1))
     return int(rows[-1]) + 1 if len(rows) else 0

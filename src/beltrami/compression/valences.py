@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._jit import kernel
+from beltrami._jit import plain_kernel
 from beltrami.compression.mixing import Mixer, code_mixed, new_mixer
 from beltrami.compression.range_coder import code_number, new_number_model
 from beltrami.compression.tables import whole
@@ -52,7 +52,7 @@ def new_valences(vertices: int) -> Valences:
     )
 
 
-@kernel
+@plain_kernel
 def _look(p: int, front: Any, valences: Any) -> None:
     """Note valences and missing faces around the side after the node p."""
     a, known = valences.around, valences.known
@@ -70,7 +70,7 @@ def _look(p: int, front: Any, valences: Any) -> None:
         a[i] = min(a[i], 15)
 
 
-@kernel
+@plain_kernel
 def _hash(a: int, b: int, c: int, d: int, e: int, f: int) -> int:
     """Mix six numbers below 32 to one of ``_BITS`` bits."""
     x = ((((a * 32 + b) * 32 + c) * 32 + d) * 32 + e) * 32 + f
@@ -80,7 +80,7 @@ def _hash(a: int, b: int, c: int, d: int, e: int, f: int) -> int:
     return (x >> 7) & ((1 << _BITS) - 1)
 
 
-@kernel
+@plain_kernel
 def _choose(step: int, valences: Any) -> None:
     """Write the contexts of the decision number ``step``."""
     a, r, x = valences.around, valences.recent, valences.mixer.contexts
@@ -96,7 +96,7 @@ def _choose(step: int, valences: Any) -> None:
     x[9] = _hash(step, a[10], a[8], a[5], a[6], 9)
 
 
-@kernel
+@plain_kernel
 def code_is_new(bit: int, p: int, front: Any, valences: Any, state: Any, buffer: Any) -> int:
     """Write or read whether the tip at the side after node p is a new vertex."""
     _look(p, front, valences)
@@ -105,7 +105,7 @@ def code_is_new(bit: int, p: int, front: Any, valences: Any, state: Any, buffer:
     return code_mixed(bit, 31 * 16 + a[0], 31 * 16 + a[1], _SPEED, valences.mixer, state, buffer)
 
 
-@kernel
+@plain_kernel
 def code_valence(value: int, p: int, front: Any, valences: Any, state: Any, buffer: Any) -> int:
     """Write or read a valence >= 2: is it 6, is it less, and then one by one."""
     _look(p, front, valences)
@@ -133,7 +133,7 @@ def code_valence(value: int, p: int, front: Any, valences: Any, state: Any, buff
     return found
 
 
-@kernel
+@plain_kernel
 def _decide(bit: int, step: int, valences: Any, state: Any, buffer: Any) -> int:
     _choose(step, valences)
     a = valences.around

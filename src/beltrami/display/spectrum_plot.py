@@ -4,23 +4,20 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, Integers, as_function, whole
 from beltrami._kinds import checked
-from beltrami._optional import require
 from beltrami.display.images import check_suffix, write_image
+from beltrami.display.line_plot import COLORS, LinePlot
 from beltrami.display.srgb import Image
 from beltrami.errors import BeltramiError, MeshError, shown
 from beltrami.spectrum.basis import FourierBasis
 
 _BANDS_PER_OCTAVE = 2  # of λ, over which the lines take root mean squares
-_DPI = 100
 _SMALLEST, _LARGEST = 200, 20_000  # pixels
-_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00")
 _FEW = 3  # coefficients below which a mean says nothing
 _FLOOR = 1e-18  # of the largest coefficient: what is below is drawn there
 
@@ -132,22 +129,14 @@ def _pixels(size: tuple[int, int]) -> tuple[int, int]:
 
 
 def _draw(eigenvalues: Floats, spectra: Mapping[str, Floats], size: tuple[int, int]) -> Image:
-    figure_of: Any = require("matplotlib.figure", "plot", "plots of spectra")
-    agg: Any = require("matplotlib.backends.backend_agg", "plot", "plots of spectra")
-    width, height = _pixels(size)
-    figure = figure_of.Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI, layout="constrained")
-    canvas = agg.FigureCanvasAgg(figure)
-    axes = figure.add_subplot()
+    plot = LinePlot(_pixels(size), "plots of spectra")
+    axes = plot.axes
     highest = max(float(values.max()) for values in spectra.values())
     floor = _FLOOR * (highest or 1.0)
     for i, (name, values) in enumerate(spectra.items()):
-        color = _COLORS[i % len(_COLORS)]
+        color = COLORS[i % len(COLORS)]
         axes.plot(eigenvalues, np.maximum(values, floor), ".", color=color, alpha=0.3, ms=5)
         at, mean = band_means(eigenvalues, values)
         axes.plot(at, np.maximum(mean, floor), "-", color=color, lw=2, label=name)
     axes.set(xscale="log", yscale="log", xlabel="eigenvalue λ", ylabel="size of coefficient")
-    axes.grid(visible=True, which="major", color="0.9")
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.legend(frameon=False)
-    canvas.draw()
-    return np.ascontiguousarray(np.asarray(canvas.buffer_rgba())[..., :3])
+    return plot.picture()
