@@ -46,6 +46,8 @@ def checked(function: Function) -> Function:
         if name != "return" and (kind := _kind_of(annotation)) is not None
     }
     code = function.__code__
+    if "whole" in code.co_names:  # it asks for its whole numbers itself, in its own words
+        kinds = {name: kind for name, kind in kinds.items() if set(kind) - {"int", "None"}}
     names = code.co_varnames[: code.co_argcount]
     require = _require
 
