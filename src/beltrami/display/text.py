@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from PIL import ImageFont
 
-from beltrami.errors import MeshError, shown
+from beltrami.errors import MeshError
 
 Font: TypeAlias = ImageFont.FreeTypeFont
 # The bundled font has ASCII and little more.
@@ -40,7 +40,8 @@ def load_font(path: str | PathLike[str] | None, size: int) -> Font:
             ImageFont.load_default(size) if path is None else ImageFont.truetype(fspath(path), size)
         )
     except (OSError, ImportError) as cause:
-        raise MeshError(f"no font can be read from {shown(path or 'pillow')}: {cause}") from cause
+        source = "pillow" if path is None else repr(fspath(path))
+        raise MeshError(f"no font can be read from {source}: {cause}") from cause
     if not isinstance(font, ImageFont.FreeTypeFont):
         raise MeshError("pillow was built without FreeType, so that captions cannot be drawn")
     return font

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,7 +66,10 @@ def pair_sides(faces: Integers, n: int) -> HalfEdges:
     m = len(faces)
     boundary = max(2 * n - m, 0)  # as many edges as a disk of these counts has there
     corners = unsigned(faces)
-    return _paired(corners, n, boundary + m // 5 + 2) or _paired(corners, n, 3 * m)
+    paired = _paired(corners, n, boundary + m // 5 + 2)
+    if paired is None:
+        paired = cast(HalfEdges, _paired(corners, n, 3 * m))  # room for all sides is enough
+    return paired
 
 
 # The sides are sorted by (smaller vertex, larger vertex) with two stable counting sorts, the
@@ -96,11 +99,13 @@ def _paired(corners: Any, n: int, room: int) -> HalfEdges | None:
     if not complete:  # faces that name a vertex twice have no sides
         of_sides[0], of_sides[1] = -1, BOUNDARY
     face_edges, twins = of_sides
-    p, *counts = _number_edges(ordered, by_low, room, ends, face_edges.ravel(), twins.ravel())
+    p, boundary, crowded, disoriented = _number_edges(
+        ordered, by_low, room, ends, face_edges.ravel(), twins.ravel()
+    )
     if p < 0:
         return None
     arrays = (read_only(edges[:p]), read_only(face_edges), read_only(twins))
-    return HalfEdges(*arrays, *map(int, counts), complete)
+    return HalfEdges(*arrays, int(boundary), int(crowded), int(disoriented), complete)
 
 
 @kernel
