@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from beltrami._arrays import Booleans, Floats, Integers, read_only, whole
-from beltrami._kinds import checked
+from beltrami._kinds import require_kind
 from beltrami._progress import Progress
 from beltrami.errors import MeshError, check_name, shown
 from beltrami.mesh.cut import Cut
@@ -45,7 +45,6 @@ class _Chart(NamedTuple):
     uv: Floats
 
 
-@checked
 def atlas(
     mesh: Mesh,
     count: int = 1,
@@ -131,6 +130,8 @@ def atlas(
         refuse_unreferenced(mesh.topology)
     if not (isinstance(max_distortion, numbers.Real) and max_distortion > 1):
         raise MeshError(f"max_distortion is a number above 1, not {shown(max_distortion)}")
+    require_kind("strict", strict, ("bool",))
+    require_kind("progress", progress, ("Progress", "None"))
     whole("size", size, least=16, most=65536)
     whole("padding", padding, least=0, most=size // 4)
     whole("the number of charts", count, least=1, most=mesh.n_faces)
