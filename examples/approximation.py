@@ -77,4 +77,8 @@ def main(folder, n_vertices=1900):
 
 
 if __name__ == "__main__":
-    print(*main(sys.argv[1]), sep="\n")
+    few, sizes, errors = main(sys.argv[1])
+    for name, (first, largest) in few.items():
+        print(f"{name}: error of the first 40 terms {first:.3f}, of the 40 largest {largest:.3f}")
+    print("bytes", *sizes)
+    print("errors", *(f"{error:.1e}" for error in errors))

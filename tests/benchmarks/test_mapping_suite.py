@@ -71,7 +71,7 @@ def test_invalid_maps_do_not_enter_the_median():
     text = "\n".join(report(found, "cut"))
     assert "| beltrami auto | 1 of 2 | 4 | 4 | 2.0 |" in text
     assert "MISSED" in text
-    assert "on 1 disks: 1.000 median, 1.000 largest" in text
+    assert "where that is valid on 1 disks: 1.000 median, 1.000 largest" in text
     assert "| beltrami auto | 1 of 2 | 4 |" in "\n".join(summary(found))
 
 

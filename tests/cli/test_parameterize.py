@@ -126,8 +126,8 @@ def test_cut(beltrami, ring, tmp_path):
         (("-o", "out.gltf"), "texture coordinates '.gltf': choose one of '.obj', '.glb'"),
         (("-o", "out.obj", "--boundary", "triangle"), "boundary curve"),
         (("-o", "out.obj", "--boundary", "2"), "2 sides"),
-        (("-o", "out.obj", "--boundary", "square"), "bulge"),
-        (("-o", "out.obj", "--no-cut"), "not a disk"),
+        (("-o", "out.obj", "--boundary", "square"), "bend the sides a little (--bulge 0.01)"),
+        (("-o", "out.obj", "--no-cut"), "Allow it by leaving out --no-cut"),
         (("-o", "out.obj", "--method", "lscm"), "method of parameterisation"),
     ],
 )

@@ -15,6 +15,7 @@ from beltrami.errors import (
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import blob, grid, icosphere
 from beltrami.operators.laplacian import laplacian
+from beltrami.parameterization.parameterize import parameterize
 from beltrami.spectrum.fourier_basis import fourier_basis
 from page_reader import faces_from, moebius, read_page, values_from
 
@@ -229,5 +230,8 @@ def test_the_same_mesh_gives_the_same_bytes(tmp_path):
 
 @pytest.mark.heavy
 def test_35_thousand_vertices_take_three_megabytes(tmp_path):
-    done = page(blob(35_000), tmp_path / "p.html", modes=64)
+    """With all there may be: three Laplacians, two maps, and a picture that cannot be packed."""
+    picture = np.random.default_rng(0).uniform(size=(1500, 1500, 3))
+    mesh = parameterize(blob(35_000), "tutte").textured
+    done = page(mesh, tmp_path / "p.html", modes=64, texture=picture)
     assert done.size <= 3_000_000

@@ -506,6 +506,12 @@ def test_a_picture_on_the_map_that_is_made(browser, shape, tmp_path):
         visit.changes_by(lambda: visit.tab.select_option("#plane-pattern", "checks"), 0.02)
         assert visit.tab.is_visible("#plane-count")
         visit.tab.select_option("#plane-shown", "none")
+        for pattern in ("checks", "none"):  # clay, light and dark
+            visit.tab.select_option("#plane-pattern", pattern)
+            visit.wait()
+            seen = visit.picture()[:, half:][rows, columns]
+            hue = seen / seen.max(axis=1, keepdims=True)
+            assert np.abs(np.median(hue, axis=0) - [1, 0.9, 0.81]).max() < 0.03
         visit.changes_by(lambda: visit.tab.select_option("#plane-pattern", "picture"), 0.02)
         np.testing.assert_array_equal(visit.picture(), plain)
 
@@ -752,8 +758,6 @@ def test_frames_cost_little_javascript(browser, shape, tmp_path, record_property
     kinds = ("cotangent",)
     write_page(blob(35_000), tmp_path / "p.html", laplacians=kinds, plane=False, noise=0)
     with Visit(browser, tmp_path / "p.html") as visit:
-        visit.open("heat")
-        visit.wait()
         counter = visit.context.new_cdp_session(visit.tab)
         counter.send("Performance.enable", {"timeDomain": "threadTicks"})
 
@@ -762,12 +766,17 @@ def test_frames_cost_little_javascript(browser, shape, tmp_path, record_property
             return next(one["value"] for one in told if one["name"] == "TaskDuration")
 
         frames = (
-            "(() => { const app = beltrami.app; for (let i = 0; i < 30; i++) {"
-            "app.panel.state.time *= 1.01; app.changed(); app.frame(performance.now()); } })()"
+            "(() => { const app = beltrami.app; for (let i = 0; i < 5; i++) {"
+            "app.changed(); app.frame(performance.now()); } })()"
         )
-        start = cpu()
-        visit.js(frames)
-        spent = 1000 * (cpu() - start) / 30
-        record_property("milliseconds of JavaScript per frame", round(spent, 2))
-        print(f"{spent:.2f} ms of JavaScript per frame")  # noqa: T201
-        assert 0 < spent < 30  # 8 are wanted; a busy machine may take more
+        for panel in ("heat", "wave", "terms", "regularize"):
+            visit.open(panel)
+            visit.wait()
+            spent = []
+            for _ in range(2):  # the lesser one: others may be using the machine
+                start = cpu()
+                visit.js(frames)
+                spent.append(1000 * (cpu() - start) / 5)
+            record_property(f"milliseconds of JavaScript per frame: {panel}", round(min(spent), 2))
+            print(f"{panel}: {min(spent):.2f} ms of JavaScript per frame")  # noqa: T201
+            assert 0 < min(spent) < 8

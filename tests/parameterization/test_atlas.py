@@ -194,7 +194,7 @@ def test_progress_tells_the_faces_that_are_mapped():
 def test_bad_input_is_told():
     ball = icosphere(1)
     for bound in (1.0, 0.5, np.nan, "2", None):
-        with pytest.raises(MeshError, match="max_distortion is a number above 1"):
+        with pytest.raises(MeshError, match=r"max_distortion is .*number"):
             atlas(ball, max_distortion=bound)
     with pytest.raises(MeshError, match="size is 3"):
         atlas(ball, size=3)

@@ -20,6 +20,7 @@ from beltrami.errors import (
 )
 from beltrami.io.registry import read_mesh, write_mesh
 from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.repair import repair
 from beltrami.mesh.shapes import blob, cylinder, disk, icosphere, tetrahedron, torus
 from beltrami.mesh.tree_cotree import cut_to_disk
 from beltrami.parameterization.atlas import atlas
@@ -227,3 +228,14 @@ def test_bad_input():
             atlas(sphere, seams=seams)
     with pytest.raises(UnknownNameError, match="spacing"):
         parameterize(sphere, "spectral_conformal", spacing="even")
+
+
+def test_seams_that_do_not_pay_change_nothing():
+    """Maps are compared roughly, but the one that is kept is relaxed to the last."""
+    ball = icosphere(3)
+    cap = Mesh(ball.vertices, ball.faces[(ball.vertices[ball.faces][:, :, 2] > 0.6).all(axis=1)])
+    cap = repair(cap, remove_unreferenced=True).mesh
+    plain, tried = parameterize(cap, "free"), parameterize(cap, "free", seams=1)
+    assert len(tried.cut_edges) == 0
+    energy = plain.distortion.symmetric_dirichlet
+    assert tried.distortion.symmetric_dirichlet == pytest.approx(energy, rel=1e-3)

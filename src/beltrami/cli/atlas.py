@@ -41,7 +41,7 @@ def atlas(
     ] = False,
     seams: Annotated[
         int, Option(min=0, help="Up to so many cuts into a chart before it is cut in two.")
-    ] = 2,
+    ] = 1,
     size: Annotated[int, Option(help="Texels along a side.")] = 1024,
     padding: Annotated[int, Option(help="Texels kept free around each chart.")] = 2,
     texture: Annotated[

@@ -19,12 +19,19 @@ def as_commands(text: str) -> str:
     'Use --weights combinatorial or distance, or --method implicit, not this.'
     >>> as_commands('Or use method="heat".')
     'Or use --method heat.'
+    >>> as_commands('Allow it with cut=True, take boundary="circle", or bend it (bulge=0.01).')
+    'Allow it by leaving out --no-cut, take --boundary circle, or bend it (--bulge 0.01).'
+    >>> as_commands("strict=False returns the map as it is.")
+    '--allow-folds writes the map as it is.'
     """
     text = re.sub(r"repair\(mesh, ([^)]*)\)", _call, text)
     text = re.sub(rf"\brepair: ({_repairs()})\b", _command, text)
     text = re.sub(rf"\b({_repairs()})(=True)?\b(?!\s*=)", lambda found: _option(found[1]), text)
     text = re.sub(r'laplacian\(mesh, "(\w+)"\) or "(\w+)"', r"--weights \1 or \2", text)
-    text = re.sub(r'\b(method|weights|mass)="(\w+)"', r"--\1 \2", text)
+    text = re.sub(r'\b(method|weights|mass|boundary)="(\w+)"', r"--\1 \2", text)
+    text = re.sub(r"\bbulge=([\d.]+\d)", r"--bulge \1", text)
+    text = text.replace("with cut=True", "by leaving out --no-cut")
+    text = text.replace("strict=False returns", "--allow-folds writes")
     return text.replace("heat()", "--method implicit")
 
 

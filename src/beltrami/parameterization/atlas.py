@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import numbers
-from typing import NamedTuple
 
 import numpy as np
 
-from beltrami._arrays import Booleans, Floats, Integers, read_only, whole
+from beltrami._arrays import Booleans, Integers, read_only, whole
 from beltrami._kinds import require_kind
 from beltrami._progress import Progress
 from beltrami.errors import MeshError, check_name, shown
@@ -16,33 +15,17 @@ from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.topology import Topology
 from beltrami.operators.soundness import refuse_unreferenced, require_sound
-from beltrami.parameterization.cells import Neighbours, halved, into_disks
 from beltrami.parameterization.certificate import certify
+from beltrami.parameterization.charts import Asked, Chart, area_of, halves, map_chart
 from beltrami.parameterization.disk_cells import segment_into_disks
-from beltrami.parameterization.distortion import measured
 from beltrami.parameterization.holes import HOLES, Filled, fill_holes
 from beltrami.parameterization.packing import outline, pack
-from beltrami.parameterization.parameterization import Parameterization, certified
-from beltrami.parameterization.parameterize import parameterize
+from beltrami.parameterization.parameterization import certified
+from beltrami.parameterization.parameterize import METHODS, in_words
 from beltrami.parameterization.texture_atlas import TextureAtlas
 
 _FILL = 0.35  # of the square, at least: for the size of a texel before charts are packed
-_APART = 4.0  # gaps in space that are far apart
-_PIECES = 10_000  # of a boundary edge, at most
 _EXACT = 2.0**24  # multiples of its inverse in [0, 1] are exact in single precision
-
-
-class _Chart(NamedTuple):
-    """Faces of the surface, and a mesh of their own in the plane.
-
-    ``corners`` are the faces in vertices of the chart, ``origin`` those of the surface that these
-    are copies of, ``uv`` where they lie.
-    """
-
-    faces: Integers
-    corners: Integers
-    origin: Integers
-    uv: Floats
 
 
 def atlas(
@@ -53,7 +36,7 @@ def atlas(
     method: str = "free",
     cells: str = "farthest",
     holes: str = "fill",
-    seams: int = 2,
+    seams: int = 1,
     size: int = 1024,
     padding: int = 2,
     strict: bool = True,
@@ -137,10 +120,14 @@ def atlas(
     whole("the number of charts", count, least=1, most=mesh.n_faces)
     whole("the number of seams", seams, least=0)
     check_name("treatment of holes", holes, HOLES)
+    check_name("method of parameterisation", method, METHODS)
     filled = fill_holes(mesh) if holes == "fill" else Filled.without_any(mesh)
     first = segment_into_disks(filled.mesh, count, method=cells).labels
     gap = 2 * padding * np.sqrt(mesh.area / _FILL) / size
-    charts: list[_Chart] = []
+    asked = Asked(method, seams, float(max_distortion), gap)
+    origin = np.full(filled.mesh.n_vertices, -1)  # the tips of fillings are of no vertex
+    origin[: len(filled.apart.vertex_map)] = filled.apart.vertex_map
+    charts: list[Chart] = []
     waiting = [np.flatnonzero(first == cell) for cell in range(int(first.max()) + 1)]
     mapped = 0
     while waiting:
@@ -149,92 +136,25 @@ def atlas(
         faces = waiting.pop()
         number, corners = np.unique(filled.mesh.faces[faces], return_inverse=True)
         part = Mesh(filled.mesh.vertices[number], corners.reshape(-1, 3))
-        for allowed in sorted({0, seams}):  # a chart that is good without a seam gets none
-            found = parameterize(part, method, seams=allowed, strict=False)
-            made = _charts(found, faces, filled.apart.vertex_map, number, mesh.n_faces)
-            good = found.is_bijective and all(
-                _distortion(chart, mesh) <= max_distortion
-                and not _comes_near_itself(chart, mesh, gap)
-                for chart in made
-            )
-            if good or len(faces) == 1:
-                break
-        if good or len(faces) == 1:
+        made = map_chart(part, faces, origin[number], mesh, asked)
+        if made is None:
+            half = halves(part)
+            waiting += [faces[half == q] for q in range(int(half.max()) + 1)]
+        else:
             charts += made
             mapped += sum(len(chart.faces) for chart in made)
-        else:
-            halves = _halves(part)
-            waiting += [faces[halves == half] for half in range(int(halves.max()) + 1)]
     charts.sort(key=lambda chart: int(chart.faces[0]))
-    words = f"atlas of {len(charts)} charts: {found.method}"
+    words = f"atlas of {len(charts)} charts: {in_words(method, None, 0)}"
     return _assembled(mesh, charts, size, padding, words, strict=strict)
 
 
-def _charts(
-    found: Parameterization, faces: Integers, vertex_map: Integers, number: Integers, m: int
-) -> list[_Chart]:
-    """Leave out the faces that fill holes; a chart for each piece of what remains."""
-    real = np.flatnonzero(faces < m)
-    if not len(real):
-        return []
-    used, corners = np.unique(found.mesh.faces[real], return_inverse=True)
-    pieces = Topology(corners.reshape(-1, 3)).components("edges")
-    made = []
-    for piece in range(int(pieces.max()) + 1):
-        own = real[pieces == piece]
-        used, corners = np.unique(found.mesh.faces[own], return_inverse=True)
-        origin = vertex_map[number[found.vertex_map[used]]]
-        made.append(_Chart(faces[own], corners.reshape(-1, 3), origin, found.uv[used]))
-    return made
-
-
-def _distortion(chart: _Chart, mesh: Mesh) -> float:
-    part = Mesh(mesh.vertices[chart.origin], chart.corners)
-    return measured(part, chart.uv).symmetric_dirichlet
-
-
-def _halves(part: Mesh) -> Integers:
-    """Part a disk into two, or more where halves are no disks; it has two faces at least."""
-    labels = segment_into_disks(part, 2).labels
-    if labels.any():
-        return labels
-    near = Neighbours.of(part)
-    return into_disks(halved(labels, near, np.ones(1, np.bool_)), part.topology, near)[0]
-
-
-def _comes_near_itself(chart: _Chart, mesh: Mesh, gap: float) -> bool:
-    """Whether parts of the boundary that are far apart on the surface nearly meet in the plane.
-
-    A filter would mix their texels. Both sides of a seam may be near to each other: they are the
-    same points.
-    """
-    if gap == 0:
-        return False
-    from scipy.spatial import cKDTree  # slow to load
-
-    edges = Topology(chart.corners).boundary_edges
-    uv = chart.uv * np.sqrt(mesh.face_areas[chart.faces].sum() / _area(chart.uv[chart.corners]))
-    a, b = uv[edges[:, 0]], uv[edges[:, 1]]
-    pieces = np.ceil(np.linalg.norm(b - a, axis=1) / (gap / 2)).astype(np.int64)
-    pieces = np.clip(pieces, 1, _PIECES)
-    edge = np.repeat(np.arange(len(edges)), pieces)
-    turn = np.arange(len(edge)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
-    t = (turn / pieces[edge])[:, None]
-    flat = a[edge] + t * (b - a)[edge]
-    x, y = (mesh.vertices[chart.origin[edges[:, end]]] for end in (0, 1))
-    there = x[edge] + t * (y - x)[edge]
-    pairs = cKDTree(flat).query_pairs(gap, output_type="ndarray")
-    far = np.linalg.norm(there[pairs[:, 0]] - there[pairs[:, 1]], axis=1) > _APART * gap
-    return bool(far.any())
-
-
 def _assembled(
-    mesh: Mesh, charts: list[_Chart], size: int, padding: int, words: str, *, strict: bool
+    mesh: Mesh, charts: list[Chart], size: int, padding: int, words: str, *, strict: bool
 ) -> TextureAtlas:
     """Pack the charts, and make one map of them."""
     outlines = []
     for chart in charts:
-        scale = np.sqrt(mesh.face_areas[chart.faces].sum() / _area(chart.uv[chart.corners]))
+        scale = np.sqrt(mesh.face_areas[chart.faces].sum() / area_of(chart.uv[chart.corners]))
         edges = Topology(chart.corners).boundary_edges
         outlines.append(outline(chart.uv * scale, edges))
     packed = pack(outlines, size, padding)
@@ -254,11 +174,6 @@ def _assembled(
         uv = rounded
     found = certified(mesh, cut, uv, words, strict=strict)
     return TextureAtlas(read_only(uv[faces]), read_only(labels), found, size, padding)
-
-
-def _area(corners: Floats) -> float:
-    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    return float(np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2)
 
 
 def _cut_edges(mesh: Mesh, faces: Integers) -> Integers:

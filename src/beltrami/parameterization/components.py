@@ -24,6 +24,7 @@ _STEPS = 30  # of reweighting, at most
 _ENOUGH = 30.0  # energy from which Newton's steps are the faster ones
 _SETTLED = 3e-3  # decrease in a step at which the relaxation inside a fixed boundary stops
 _TO_THE_LAST = 1e-4  # likewise, with a free boundary
+_ROUGHLY = 1e-2  # likewise, as long as maps are compared
 _BAD = 50.0  # symmetric Dirichlet energy above which other weights are tried
 _RELAXATIONS = 200  # steps of it, at most
 _FROM_DRAWING = 300  # steps of relaxation that make a map of a drawing
@@ -45,6 +46,12 @@ class Request:
     seams: int
     cut: bool
     draw: bool  # where all else folds
+    rough: bool = False  # not relaxed to the last: that is left to ``settle``
+
+    @property
+    def compares(self) -> bool:
+        """Whether several maps are to be compared, for which rough ones are good enough."""
+        return self.rough or (self.cut and self.seams > 0)
 
     @property
     def rescue(self) -> bool:
@@ -86,7 +93,8 @@ def map_component(current: Cut, uv: Floats, faces: Booleans, asked: Request) -> 
     added = current.mesh.n_vertices - len(uv)
     uv = np.concatenate([uv, np.zeros((added, 2))])
     drawn = best.flips > 0 and asked.rescue and asked.draw
-    uv[number] = _drawn(part) if drawn else best.uv
+    finish = asked.method == "free" and asked.compares and not asked.rough and not best.flips
+    uv[number] = _drawn(part) if drawn else settle(part, best.uv, None) if finish else best.uv
     return Mapped(current, uv, drawn)
 
 
@@ -137,6 +145,8 @@ def _held(number: Integers, corners: Integers | None) -> Integers | None:
 
 def _relaxed(part: Mesh, start: Step, asked: Request) -> Step:
     """Lower the energy, with a free boundary or inside the one that was asked for."""
+    if asked.method == "free" and asked.compares:
+        return assess(part, relax(part, start.uv, _RELAXATIONS, None, _ROUGHLY)[0])
     held = None if asked.method == "free" else part.topology.on_boundary
     return assess(part, settle(part, start.uv, held))
 

@@ -44,8 +44,10 @@ def crossings(points: Floats, segments: Integers) -> Integers:
     near = near[:found]
     pairs = np.sort(order[near], axis=1)
     s, t = segments[pairs[:, 0]], segments[pairs[:, 1]]
-    meet = np.where(_have_common_end(s, t), _overlap(points, s, t), _cross(points, s, t))
-    guilty: Integers = pairs[meet.astype(np.bool_)]
+    meet = _have_common_end(s, t)
+    apart = ~meet  # each test where it is needed: a common end would always be in line
+    meet[meet], meet[apart] = _overlap(points, s[meet], t[meet]), _cross(points, s[apart], t[apart])
+    guilty: Integers = pairs[meet]
     return guilty[np.lexsort(guilty.T[::-1])]
 
 

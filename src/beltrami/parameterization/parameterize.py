@@ -21,7 +21,7 @@ from beltrami.parameterization.layout import part_of, side_by_side
 from beltrami.parameterization.parameterization import Parameterization, certified
 
 METHODS = ("auto", "tutte", "free", *CONFORMAL)
-_DEFAULTS: dict[str, tuple[str | Weigher, ...]] = {
+DEFAULT_WEIGHTS: dict[str, tuple[str | Weigher, ...]] = {
     "auto": ("clamped", "mean_value", "combinatorial"),
     "tutte": ("mean_value",),
     "free": ("clamped", "mean_value", "combinatorial"),
@@ -139,7 +139,7 @@ def parameterize(
     check_name("spacing", spacing, SPACINGS)
     if method in CONFORMAL:
         _refuse_what_is_not_used(mesh, method, weights, boundary, spacing, corners, bulge)
-    kinds = _DEFAULTS.get(method, ()) if weights is None else (weights,)
+    kinds = DEFAULT_WEIGHTS.get(method, ()) if weights is None else (weights,)
     filled = fill_holes(mesh) if check_name("treatment of holes", holes, HOLES) == "fill" else None
     if filled is not None and filled.mesh.n_faces == mesh.n_faces:
         filled = None
@@ -157,7 +157,7 @@ def parameterize(
         current, uv = _without(filled, mesh, current, uv, asked)
         labels = current.mesh.components()
     uv = side_by_side(current.mesh, uv, labels)
-    return certified(mesh, current, uv, _words(method, weights, drawn), strict=strict)
+    return certified(mesh, current, uv, in_words(method, weights, drawn), strict=strict)
 
 
 def _without(
@@ -177,7 +177,7 @@ def _without(
     return current, uv
 
 
-def _words(method: str, weights: str | Weigher | None, drawn: int) -> str:
+def in_words(method: str, weights: str | Weigher | None, drawn: int) -> str:
     """Say how a map was made."""
     if method in CONFORMAL:
         return method.replace("_", " ")

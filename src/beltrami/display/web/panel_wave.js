@@ -7,7 +7,7 @@ import { atPoint, responsePlot, sourceChoice, sourceOf } from "./source.js";
 import { heat, lowest, product, wave } from "./spectral.js";
 
 export function wavePanel(app) {
-  const state = { time: 0, playing: false, lift: 0.4 };
+  const state = { time: 0, playing: false, lift: 0.2 };
   const plot = new Plot("Factors of the wave over the eigenvalues");
   const told = readings();
   const period = () => (2 * Math.PI) / Math.sqrt(lowest(app.spectrum.eigenvalues));
