@@ -107,7 +107,15 @@ def test_calls_are_recorded_with_all_their_parameters():
 def test_kinds_of_annotations():
     assert _kind_of("float | None") == ("float", "None")
     assert _kind_of("str | os.PathLike[str]") == ("str", "os.PathLike[str]")
-    for elsewhere in ("str", "str | None", "Laplacian", "Laplacian | None", "ArrayLike", "Mesh"):
+    for elsewhere in (
+        "str",
+        "str | None",
+        "Laplacian",
+        "FourierBasis | None",
+        "Laplacian | None",
+        "ArrayLike",
+        "Mesh",
+    ):
         assert _kind_of(elsewhere) is None
 
 

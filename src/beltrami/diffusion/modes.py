@@ -8,6 +8,7 @@ import numpy as np
 import scipy.linalg
 
 from beltrami._arrays import Floats
+from beltrami._kinds import require_kind
 from beltrami.diffusion.held import FreePart
 from beltrami.errors import BeltramiError, TruncationError
 from beltrami.spectrum.basis import FourierBasis
@@ -66,6 +67,7 @@ def find_modes(part: FreePart, basis: FourierBasis | None) -> Modes:
     BeltramiError
         If there is no basis and the pair is large, or the basis is that of another pair.
     """
+    require_kind("basis", basis, ("FourierBasis", "None"))
     q = part.stiffness.shape[0]
     if basis is None:
         if q > MOST_DENSE:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats
-from beltrami._kinds import checked
+from beltrami._kinds import require_kind
 from beltrami.errors import BeltramiError, check_name
 from beltrami.geodesics.edge_paths import edge_distance
 from beltrami.geodesics.exact import exact_distance
@@ -17,7 +17,6 @@ from beltrami.operators.soundness import refuse_unreferenced, require_sound
 DISTANCE_METHODS = ("heat", "exact", "edges")
 
 
-@checked
 def geodesic_distance(
     mesh: Mesh,
     sources: ArrayLike,
@@ -70,6 +69,7 @@ def geodesic_distance(
     [2.236, 2.414, 2.151]
     """
     check_name("method of distance", method, DISTANCE_METHODS)
+    require_kind("intrinsic", intrinsic, ("bool",))
     if method == "heat":
         prepared = HeatMethod(mesh, time=time, intrinsic=intrinsic, boundary=boundary)
         return prepared.distance(sources)

@@ -13,7 +13,7 @@ from scipy.sparse import csr_array
 from beltrami._arrays import Booleans, Floats, Integers
 from beltrami._frozen import Frozen
 from beltrami._jit import kernel
-from beltrami._kinds import checked
+from beltrami._kinds import require_kind
 from beltrami.errors import BeltramiError, ConvergenceError, check_name, shown
 from beltrami.geodesics.sources import checked_sources
 from beltrami.mesh.connectivity import component_labels
@@ -80,7 +80,6 @@ class HeatMethod(Frozen):
     intrinsic: bool
     boundary: str
 
-    @checked
     def __init__(
         self,
         mesh: Mesh,
@@ -91,6 +90,7 @@ class HeatMethod(Frozen):
     ) -> None:
         check_name("boundary", boundary, BOUNDARIES)
         require_mesh(mesh, "the heat method")
+        require_kind("intrinsic", intrinsic, ("bool",))
         pair = laplacian(mesh, _weights(mesh, intrinsic), "voronoi")
         triangles = pair.domain if isinstance(pair.domain, IntrinsicTriangulation) else mesh
         t = _mean_edge(triangles) ** 2 if time is None else _checked_time(time)

@@ -6,7 +6,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats, as_function
-from beltrami._kinds import checked
+from beltrami._kinds import checked, require_kind
 from beltrami.grids import kernels
 from beltrami.grids.differences import grid_gradient
 from beltrami.grids.eigenvalues import grid_eigenvalues
@@ -210,7 +210,6 @@ class Grid(Points):
         """
         return grid_eigenvalues(self._axes, kinds(weights, mass))
 
-    @checked
     def fourier_modes(
         self,
         k: int | None = None,
@@ -253,6 +252,7 @@ class Grid(Points):
         >>> (found.modes[:, 1] * 2**0.5).round(12).tolist()
         [1.0, 0.0, -1.0, -0.0]
         """
+        require_kind("real", real, ("bool",))
         return grid_modes(self._axes, kinds(weights, mass), k, real)
 
     @checked

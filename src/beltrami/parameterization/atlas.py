@@ -7,7 +7,7 @@ import numbers
 import numpy as np
 
 from beltrami._arrays import Booleans, Integers, read_only, whole
-from beltrami._kinds import checked
+from beltrami._kinds import require_kind
 from beltrami._progress import Progress
 from beltrami.errors import MeshError, check_name, shown
 from beltrami.mesh.cut import Cut
@@ -28,7 +28,6 @@ _FILL = 0.35  # of the square, at least: for the size of a texel before charts a
 _EXACT = 2.0**24  # multiples of its inverse in [0, 1] are exact in single precision
 
 
-@checked
 def atlas(
     mesh: Mesh,
     count: int = 1,
@@ -114,6 +113,8 @@ def atlas(
         refuse_unreferenced(mesh.topology)
     if not (isinstance(max_distortion, numbers.Real) and max_distortion > 1):
         raise MeshError(f"max_distortion is a number above 1, not {shown(max_distortion)}")
+    require_kind("strict", strict, ("bool",))
+    require_kind("progress", progress, ("Progress", "None"))
     whole("size", size, least=16, most=65536)
     whole("padding", padding, least=0, most=size // 4)
     whole("the number of charts", count, least=1, most=mesh.n_faces)

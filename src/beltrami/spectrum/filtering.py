@@ -7,7 +7,7 @@ import math
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_function, whole
-from beltrami._kinds import checked
+from beltrami._kinds import checked, require_kind
 from beltrami._progress import Progress
 from beltrami.errors import BeltramiError, DimensionError, check_name
 from beltrami.operators.domain import require_laplacian
@@ -111,6 +111,7 @@ def filter(  # noqa: A001
     if method == "exact":
         if count is not None:
             raise BeltramiError("an exact filter has no order")
+        require_kind("basis", basis, ("FourierBasis", "None"))
         return _complete_basis(laplacian, basis).filter(values, h)
     interval = spectral_interval(laplacian)
     columns = values.reshape(laplacian.n, -1)

@@ -44,6 +44,6 @@ def flat(points: Floats, dimension: int) -> Floats:
     >>> flat(np.ones((1, 2)), 3).tolist()
     [[1.0, 1.0, 0.0]]
     """
-    if dimension not in (2, 3):
+    if np.ndim(dimension) or dimension not in (2, 3):
         raise MeshError(f"dimension is {shown(dimension)} where 2 or 3 is needed")
     return points if dimension == 2 else np.column_stack([points, np.zeros(len(points))])
