@@ -180,8 +180,7 @@ class StepTooLongError(BeltramiError, ValueError):
         scheme: str = "the explicit scheme",
         remedy: str = "Take more steps, or the implicit scheme, which has no such bound",
     ) -> None:
-        self.step = step
-        self.longest = longest
+        self.step, self.longest = step, longest
         super().__init__(
             f"{scheme} is unstable with a step of {step:.6g}: the longest allowed is "
             f"{longest:.6g}. {remedy}"
