@@ -178,7 +178,7 @@ def test_bent_sides_are_strictly_convex_and_no_edge_divides_them():
 
 @pytest.mark.parametrize("bulge", ["much", None, [0.01]])
 def test_a_bulge_is_a_number(bulge):
-    with pytest.raises(BoundaryCurveError, match="bulge"):
+    with pytest.raises(MeshError, match=r"bulge is .* where a number is needed"):
         parameterize(disk(3), boundary="square", bulge=bulge)
 
 

@@ -54,6 +54,7 @@ def map_chart(
     that can make good ones of them.
     """
     whole = cut_to_disk(part)
+    hopeless = _HOPEFUL * asked.max_distortion
     for seams in sorted({0, asked.seams}):
         weights = DEFAULT_WEIGHTS.get(asked.method, ())
         circle = ("circle", "arclength", None, 0.0)
@@ -62,20 +63,20 @@ def map_chart(
         found = map_component(whole, np.zeros((whole.mesh.n_vertices, 2)), all_faces, wanted)
         cut, uv = found.cut, found.uv
         made = _charts(cut, uv, faces, origin, mesh.n_faces)
-        if not _good(made, mesh, asked, _HOPEFUL):
+        if max((_distortion(chart, mesh) for chart in made), default=0.0) > hopeless:
             continue
         if asked.method == "free":
             uv = settle(cut.mesh, uv, None)
             made = _charts(cut, uv, faces, origin, mesh.n_faces)
-        if _good(made, mesh, asked, 1.0) and certify(cut.mesh.topology, uv).is_bijective:
+        if _good(made, mesh, asked) and certify(cut.mesh.topology, uv).is_bijective:
             return made
     return made if len(faces) == 1 else None
 
 
-def _good(charts: list[Chart], mesh: Mesh, asked: Asked, factor: float) -> bool:
-    """Whether distortion, but for a factor, and padding of charts are as they were asked for."""
+def _good(charts: list[Chart], mesh: Mesh, asked: Asked) -> bool:
+    """Whether distortion and padding of charts are as they were asked for."""
     return all(
-        _distortion(chart, mesh) <= factor * asked.max_distortion
+        _distortion(chart, mesh) <= asked.max_distortion
         and not _comes_near_itself(chart, mesh, asked.gap)
         for chart in charts
     )
