@@ -1,5 +1,6 @@
 """Chapters in several processes: the same as one after another, and none waits for another."""
 
+import os
 from dataclasses import replace
 
 import pytest
@@ -54,6 +55,15 @@ def test_a_chapter_that_cannot_be_played_says_why(tmp_path, monkeypatch):
     chapter, possible = playing.play_one(stage(tmp_path / "a", grid(3, 3)), "files")
     assert not possible
     assert (chapter.title, chapter.text) == ("Files", ("Not on this mesh: the disk is full",))
+
+
+def test_processes_have_one_thread_and_what_was_set_stays(monkeypatch):
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "3")
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    with playing._one_thread_each():
+        assert (os.environ["OMP_NUM_THREADS"], os.environ["OPENBLAS_NUM_THREADS"]) == ("1", "3")
+    assert "OMP_NUM_THREADS" not in os.environ
+    assert os.environ["OPENBLAS_NUM_THREADS"] == "3"
 
 
 @pytest.mark.parametrize("name", playing.CHAPTERS)

@@ -7,8 +7,10 @@ import signal
 import sys
 import time
 import warnings
+from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from dataclasses import replace
 from importlib import import_module
 from multiprocessing import active_children, get_context
@@ -23,6 +25,7 @@ CHAPTERS = (
     "spectrum", "compression", "maps", "geodesics", "files",
 )  # fmt: skip
 _LONGEST = ("compression", "denoising", "interactive", "maps")  # begun first
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 _MOST = 4  # processes: there are not more long chapters
 LARGE = 5000  # vertices from which the chapters take longer than the start of a process
 
@@ -47,7 +50,8 @@ def _together(stage: Stage, progress: Progress, processes: int) -> list[tuple[Ch
     order = sorted(CHAPTERS, key=lambda name: name not in _LONGEST)
     pool = ProcessPoolExecutor(processes, get_context("spawn"), initializer=_leave_when_asked)
     try:
-        futures = {name: pool.submit(play_one, stage, name) for name in order}
+        with _one_thread_each():
+            futures = {name: pool.submit(play_one, stage, name) for name in order}
         for done, _ in enumerate(as_completed(futures.values()), 1):
             progress(done, len(CHAPTERS))
         return [futures[name].result() for name in CHAPTERS]
@@ -62,6 +66,21 @@ def _together(stage: Stage, progress: Progress, processes: int) -> list[tuple[Ch
         raise
     finally:
         pool.shutdown(cancel_futures=True)
+
+
+@contextmanager
+def _one_thread_each() -> Iterator[None]:
+    """Let processes that start now have one thread of BLAS: more would wait for each other.
+
+    They read it from the environment when they load numpy; what the user has set is kept.
+    """
+    new = [name for name in _THREADS if name not in os.environ]
+    os.environ.update(dict.fromkeys(new, "1"))
+    try:
+        yield
+    finally:
+        for name in new:
+            del os.environ[name]
 
 
 def _cores() -> int:
