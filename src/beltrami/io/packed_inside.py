@@ -85,17 +85,22 @@ def _of_vtu(path: Path, _name: object) -> Iterator[bytes]:
     appended = "".join(part.text or "" for part in root.iter("AppendedData")).strip()
     for array in root.iter("DataArray"):
         if array.get("format") == "binary":
-            yield from _of_text((array.text or "").strip(), kind, unpack)
+            yield from _of_text((array.text or "").strip(), 0, kind, unpack)
         elif array.get("format") == "appended":
-            yield from _of_text(appended[1 + int(array.get("offset", "0")) :], kind, unpack)
+            yield from _of_text(appended, 1 + int(array.get("offset", "0")), kind, unpack)
 
 
-def _of_text(text: str, kind: np.dtype[Any], unpack: Callable[[bytes], Iterator[bytes]]) -> Any:
-    """Unpack an array in base64: sizes of blocks, then the blocks."""
-    count = int(np.frombuffer(_decoded(text, kind.itemsize), kind, 1)[0])
+def _of_text(
+    text: str, at: int, kind: np.dtype[Any], unpack: Callable[[bytes], Iterator[bytes]]
+) -> Any:
+    """Unpack the array in base64 that begins there: sizes of blocks, then the blocks.
+
+    The text is not copied: a file may name many arrays in one long text.
+    """
+    count = int(np.frombuffer(_decoded(text, at, kind.itemsize), kind, 1)[0])
     head = (3 + count) * kind.itemsize
-    sizes = np.frombuffer(_decoded(text, head), kind)[3:].tolist()
-    blocks = _decoded(text[_letters(head) :], sum(sizes))
+    sizes = np.frombuffer(_decoded(text, at, head), kind)[3:].tolist()
+    blocks = _decoded(text, at + _letters(head), sum(sizes))
     yield from _of_blocks(blocks, sizes, unpack)
 
 
@@ -124,8 +129,8 @@ def _letters(size: int) -> int:
     return 4 * -(-size // 3)
 
 
-def _decoded(text: str, size: int) -> bytes:
-    return base64.b64decode(text[: _letters(size)])[:size]
+def _decoded(text: str, at: int, size: int) -> bytes:
+    return base64.b64decode(text[at : at + _letters(size)])[:size]
 
 
 def _stream(data: bytes) -> Iterator[bytes]:
