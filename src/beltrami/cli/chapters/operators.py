@@ -31,7 +31,7 @@ def operators(stage: Stage) -> Chapter:
             f"coordinates is its area, {number(mesh.area)}.",
             "With area masses an explicit heat step may be at most "
             f"{number(2 / cotangent.spectral_bound())} (length²), by the bound over the faces.",
-            "What each choice promises is told by the object: `laplacian(mesh).properties`.",
+            "What each choice promises is told by the object: laplacian(mesh).properties.",
             *text,
         ),
         (HEAD, *rows),
