@@ -17,6 +17,7 @@ from beltrami.compression.compress import compress
 from beltrami.errors import FileFormatError, UnknownNameError
 from beltrami.io import extras
 from beltrami.io.registry import read_mesh, write_mesh
+from beltrami.io.unpacking import inflated
 from beltrami.mesh.shapes import icosphere
 
 MESH = icosphere(1)
@@ -77,10 +78,23 @@ def test_gzip_of_many_blocks_is_handed_over_about_once(tmp_path, monkeypatch):
     given = Input("a.ply.gz", ".ply", True, "", len(packed), np.frombuffer(packed, np.uint8))
     fake = SimpleNamespace(decompressobj=_Unpacker, error=zlib.error)
     monkeypatch.setattr("beltrami.io.unpacking.zlib", fake)
+    monkeypatch.setattr(_Unpacker, "handed", 0)
     assert _unpacked(given.content, given, None).tobytes() == bits
     assert len(packed) / 2 < _Unpacker.handed < 5 * len(packed)
     with pytest.raises(FileFormatError, match="whole gzip file"):
         _unpacked(given.content[:-2501], given, None)
+
+
+def test_a_stream_of_many_blocks_is_handed_over_about_once(monkeypatch):
+    monkeypatch.setattr("beltrami.io.unpacking._BLOCK", 1000)
+    bits = np.random.default_rng(1).integers(0, 4, 100_000, np.uint8).tobytes()
+    packed = zlib.compress(bits)
+    fake = SimpleNamespace(decompressobj=_Unpacker, error=zlib.error)
+    monkeypatch.setattr("beltrami.io.unpacking.zlib", fake)
+    monkeypatch.setattr(_Unpacker, "handed", 0)
+    assert b"".join(inflated(packed + b"what follows" * 1000)) == bits
+    assert len(packed) <= _Unpacker.handed < 5 * len(packed)
+    assert len(b"".join(inflated(packed[:9000]))) < len(bits)
 
 
 @pytest.mark.parametrize("cut", [1, 9, 40])

@@ -85,9 +85,13 @@ def gunzipped(
 def inflated(data: bytes, wbits: int = ZLIB) -> Iterator[bytes]:
     """Decompress one stream, a block of at most a megabyte at a time."""
     unpacker = zlib.decompressobj(wbits)
-    while data and not unpacker.eof:
-        yield unpacker.decompress(data, _BLOCK)
-        data = unpacker.unconsumed_tail
+    for start in range(0, len(data), _BLOCK):  # or each block would copy all that is left
+        rest = data[start : start + _BLOCK]
+        while rest and not unpacker.eof:
+            yield unpacker.decompress(rest, _BLOCK)
+            rest = unpacker.unconsumed_tail
+        if unpacker.eof:
+            return
 
 
 def _members(packed: NDArray[np.uint8]) -> Iterator[bytes]:
