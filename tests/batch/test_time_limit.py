@@ -86,6 +86,14 @@ def test_a_mesh_in_time_leaves_no_mark(job):
     assert incoming(job) == []
 
 
+def test_what_is_longer_than_the_system_can_wait_is_no_error(job, monkeypatch):
+    set_to = []
+    monkeypatch.setattr("threading.TIMEOUT_MAX", 60.0)
+    monkeypatch.setattr("faulthandler.dump_traceback_later", lambda at, **_: set_to.append(at))
+    assert process_in_time(job, "one").outcome == "done"
+    assert set_to == [60.0]
+
+
 def test_steps_are_told_as_they_begin(job):
     told = []
     process(job, told.append)

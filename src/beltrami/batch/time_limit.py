@@ -11,6 +11,7 @@ import faulthandler
 import os
 import re
 import tempfile
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from numbers import Real
@@ -111,7 +112,8 @@ def _clock(seconds: float, file: IO[bytes]) -> Iterator[Callable[[str], object]]
         with suppress(OSError):  # of a full disk: whoever writes results will say so
             file.write(step.encode() + b"\n")
 
-    faulthandler.dump_traceback_later(seconds, exit=True, file=file)
+    most = min(seconds, threading.TIMEOUT_MAX)  # on Windows 49 days: more would be an error
+    faulthandler.dump_traceback_later(most, exit=True, file=file)
     try:
         yield tell
     finally:
