@@ -1,5 +1,6 @@
 """A mesh that takes too long fails, wherever it hangs, and stops nobody."""
 
+import contextlib
 import os
 import subprocess
 import sys
@@ -92,6 +93,25 @@ def test_what_is_longer_than_the_system_can_wait_is_no_error(job, monkeypatch):
     monkeypatch.setattr("faulthandler.dump_traceback_later", lambda at, **_: set_to.append(at))
     assert process_in_time(job, "one").outcome == "done"
     assert set_to == [60.0]
+
+
+@pytest.mark.parametrize("ending", [None, KeyboardInterrupt])
+def test_the_clock_is_stopped_however_the_work_ends(job, monkeypatch, ending):
+    told = []
+    later, cancel = "faulthandler.dump_traceback_later", "faulthandler.cancel_dump_traceback_later"
+    monkeypatch.setattr(later, lambda *_, **__: told.append("set"))
+    monkeypatch.setattr(cancel, lambda: told.append("stopped"))
+
+    def work(*_):
+        told.append("work")
+        if ending is not None:
+            raise ending
+
+    monkeypatch.setattr("beltrami.batch.time_limit.process", work)
+    with contextlib.nullcontext() if ending is None else pytest.raises(ending):
+        process_in_time(job, "one")
+    assert told == ["set", "work", "stopped"]
+    assert incoming(job) == []
 
 
 def test_steps_are_told_as_they_begin(job):
