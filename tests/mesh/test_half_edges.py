@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
+from beltrami.errors import MeshError
 from beltrami.mesh.half_edges import BOUNDARY, NOT_MANIFOLD, _paired, pair_sides
 from beltrami.mesh.topology import Topology
 from strategies import any_arrays
@@ -104,6 +105,14 @@ def test_large_indices_do_not_collide():
         [0, 1], [0, n - 2], [0, n - 1], [1, n - 1], [n - 2, n - 1],
     ]  # fmt: skip
     assert pairing.twins.tolist() == [[-1, -1, 5], [-1, -1, 2]]
+
+
+def test_numbers_of_more_than_32_bits_are_refused():
+    one = np.array([[0, 1, 2]])
+    with pytest.raises(MeshError, match="715,827,883 faces and 3 vertices"):
+        pair_sides(np.broadcast_to(one, (2**31 // 3 + 1, 3)), 3)
+    with pytest.raises(MeshError, match="1 faces and 4,294,967,299 vertices"):
+        pair_sides(one, 2**32 + 3)
 
 
 def test_results_cannot_be_written_into():
