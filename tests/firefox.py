@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import tempfile
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -48,12 +49,24 @@ def firefox(folder):
                 file.write(f"user_pref({json.dumps(name)}, {json.dumps(value)});\n")
         program = _found(os.environ.get("BELTRAMI_FIREFOX"), "firefox", "firefox-esr")
         command = [program, "--remote-debugging-port=0", "--no-remote", "--profile", profile]
-        process = stack.enter_context(
-            _running(command, env=os.environ | {"DISPLAY": display}, stderr=subprocess.PIPE)
-        )
-        lines = (re.search(r"BiDi listening on (ws://\S+)", line) for line in process.stderr)
-        address = next(filter(None, lines))[1]
-        yield Window(stack.enter_context(connect(f"{address}/session", max_size=None)))
+        told = stack.enter_context(open(f"{profile}/told.txt", "w", encoding="utf-8"))
+        options = {"env": os.environ | {"DISPLAY": display}, "stderr": told}
+        process = stack.enter_context(_running(command, **options))
+        address = _address(process, f"{profile}/told.txt")
+        yield Window(stack.enter_context(connect(f"{address}/session", max_size=None, proxy=None)))
+
+
+def _address(process, file):
+    """Wait until Firefox says where it listens: in a file, as a full pipe would halt it."""
+    told = ""
+    for _ in range(600):
+        told = Path(file).read_text("utf-8")
+        if found := re.search(r"BiDi listening on (ws://\S+)\n", told):
+            return found[1]
+        if process.poll() is not None:
+            break
+        time.sleep(0.1)
+    return pytest.fail(f"Firefox does not listen: {told[-500:]}")
 
 
 @contextlib.contextmanager

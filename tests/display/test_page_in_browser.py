@@ -20,6 +20,7 @@ from page_reader import moebius
 pytestmark = pytest.mark.browser
 
 MODES = 24
+CLAY = np.array([0.94, 0.845, 0.76]) / 0.94
 TWO = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]])
 PANELS = (
     "modes", "heat", "wave", "terms", "filter", "exaggerate", "regularize", "plane", "compare"
@@ -534,6 +535,15 @@ def test_a_picture_where_the_mesh_says(browser, tmp_path, size):
             visit.slide("plane-unfold", unfold)
             visit.wait()
             compare_with_picture(visit, mesh, blocks, unfold)
+        visit.slide("plane-unfold", 0)
+        visit.tab.select_option("#plane-pattern", "none")
+        for shown in ("angle", "area"):
+            visit.tab.select_option("#plane-shown", shown)
+            visit.wait()
+            known = np.isfinite(mesh.corner_uv).all(axis=(1, 2))
+            away = np.abs(hues(visit, middles(visit, mesh)) - CLAY).max(axis=1)
+            assert away[~known].max() < 0.04
+            assert away[known].min() > 0.1
         assert visit.told()["Faces without coordinates"] == "2"
         assert visit.told()["Method"] == "given with the mesh"
         turned = int(np.isfinite(uv).all(axis=(1, 2)).sum())
@@ -546,22 +556,13 @@ def compare_with_picture(visit, mesh, blocks, unfold):
     """The middle of each face is as the picture, times light; without coordinates it is clay."""
     known = np.isfinite(mesh.corner_uv).all(axis=(1, 2))
     uv = np.where(known[:, None], mesh.corner_uv.mean(axis=1), mesh.corner_uv[known].mean())
-    x = mesh.vertices[mesh.faces].mean(axis=1)
     if unfold:
         corners = mesh.corner_uv[known]
         low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
         flat = 1.8 * (uv - (low + high) / 2) / (high - low).max()
     else:
-        unit, centre = visit.js("[beltrami.app.data.frame.unit, beltrami.app.data.frame.centre]")
-        flat = (x - centre)[:, :2] / unit
-    seen = visit.picture()
-    lens = np.array(visit.js("Array.from(beltrami.app.views[0].lens.matrix)")).reshape(4, 4).T
-    _, _, width, height = visit.js("beltrami.app.views[0].box")
-    at = np.c_[flat, np.zeros(len(flat)), np.ones(len(flat))] @ lens.T
-    at = at[:, :2] / at[:, 3:]
-    columns = ((1 + at[:, 0]) / 2 * width).astype(int)
-    rows = ((1 - at[:, 1]) / 2 * height).astype(int)
-    hue = seen[rows, columns] / seen[rows, columns].max(axis=1, keepdims=True)
+        flat = middles(visit, mesh)
+    hue = hues(visit, flat)
     place = (uv % 1) * len(blocks)
     inside = known & (np.abs(place % 1 - 0.5).max(axis=1) < 0.3)  # no neighbour is mixed in
     assert inside.sum() > 30
@@ -570,8 +571,25 @@ def compare_with_picture(visit, mesh, blocks, unfold):
     truth = truth / truth.max(axis=1, keepdims=True)
     assert np.abs(hue - truth)[inside].max() < 0.04
     if not unfold:
-        clay = np.array([0.94, 0.845, 0.76]) / 0.94
-        assert np.abs(hue - clay)[~known].max() < 0.04
+        assert np.abs(hue - CLAY)[~known].max() < 0.04
+
+
+def middles(visit, mesh):
+    """Where the middles of the faces of a flat mesh are, as it is seen."""
+    unit, centre = visit.js("[beltrami.app.data.frame.unit, beltrami.app.data.frame.centre]")
+    return (mesh.vertices[mesh.faces].mean(axis=1) - centre)[:, :2] / unit
+
+
+def hues(visit, flat):
+    """Colours of the left picture at places of the plane that faces the viewer, without light."""
+    seen = visit.picture()
+    lens = np.array(visit.js("Array.from(beltrami.app.views[0].lens.matrix)")).reshape(4, 4).T
+    _, _, width, height = visit.js("beltrami.app.views[0].box")
+    at = np.c_[flat, np.zeros(len(flat)), np.ones(len(flat))] @ lens.T
+    at = at[:, :2] / at[:, 3:]
+    columns = ((1 + at[:, 0]) / 2 * width).astype(int)
+    rows = ((1 - at[:, 1]) / 2 * height).astype(int)
+    return seen[rows, columns] / seen[rows, columns].max(axis=1, keepdims=True)
 
 
 def test_why_there_is_no_map(browser, tmp_path):

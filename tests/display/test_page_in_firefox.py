@@ -109,3 +109,18 @@ def test_a_page_asks_for_nothing(visit):
         "fetch('http://127.0.0.1:9/').catch(() => 0); })"
     )
     assert refused == "connect-src"
+
+
+def test_a_firefox_that_ends_is_no_riddle(tmp_path, monkeypatch):
+    monkeypatch.setenv("BELTRAMI_FIREFOX", "false")
+    with pytest.raises(pytest.fail.Exception, match="does not listen"), firefox(tmp_path):
+        pass
+
+
+def test_no_proxy_stands_between(monkeypatch, tmp_path):
+    monkeypatch.setenv("http_proxy", "http://127.0.0.1:9")
+    monkeypatch.setenv("https_proxy", "http://127.0.0.1:9")
+    monkeypatch.delenv("no_proxy", raising=False)
+    monkeypatch.delenv("NO_PROXY", raising=False)
+    with firefox(tmp_path) as opened:
+        assert opened.js("1 + 1") == 2

@@ -111,6 +111,27 @@ def test_pictures_travel(charts, tmp_path):
         assert data.startswith(b"\x89PNG")
 
 
+def test_a_picture_on_coordinates_alone_says_what_it_lost(charts, tmp_path):
+    picture = np.random.default_rng(1).uniform(size=(300, 300, 3))
+    done, header, sections = written(charts, tmp_path / "p.html", plane=False, texture=picture)
+    assert header["picture"]["kind"] == "image/jpeg"
+    assert len(sections["picture"]) > 10_000
+    assert [note.split(",")[0] for note in done.notes if "texture" in note] == [
+        "the texture travels as JPEG"
+    ]
+
+
+def test_edges_without_coordinates_are_not_cut(tmp_path):
+    flat = grid(6, 6)
+    uv = flat.vertices[flat.faces, :2]
+    uv[:30] = np.nan
+    mesh = Mesh(flat.vertices, flat.faces, None, uv)
+    _, header, _ = written(mesh, tmp_path / "p.html", plane=False, texture="checkerboard")
+    assert header["own"]["without"] == 30
+    assert header["own"]["cut"] == 0
+    assert header["own"]["bijective"]
+
+
 @pytest.mark.parametrize(
     ("options", "error"),
     [

@@ -48,3 +48,16 @@ def test_large_pictures_become_few_bytes_and_say_so(noise, size, kind):
     truth = smooth(*found.shape[:2])
     assert np.abs(found.mean(axis=(0, 1)) - truth.mean(axis=(0, 1))).max() < 0.02
     assert packed.size[0] / packed.size[1] == pytest.approx(size[1] / size[0], rel=0.1)
+
+
+@pytest.mark.parametrize(("length", "quality", "finer"), [(500, 92, None), (600, 75, 85)])
+def test_the_best_quality_that_fits(length, quality, finer):
+    added = np.random.default_rng(1).normal(0, 0.2, (length, length, 1))
+    picture = np.rint(255 * np.clip(smooth(length, length) + added, 0, 1)).astype(np.uint8)
+    packed = page_picture(picture)
+    assert packed.note == f"travels as JPEG, quality {quality}"
+    assert packed.size == (length, length)
+    if finer:
+        file = io.BytesIO()
+        Image.fromarray(picture).save(file, format="JPEG", quality=finer, optimize=True)
+        assert file.tell() > MOST_BYTES

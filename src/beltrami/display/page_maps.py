@@ -82,7 +82,7 @@ def own_map(sections: Sections, mesh: Mesh, order: Order, corner_uv: Floats) -> 
     rows, inverse = np.unique(keys, axis=0, return_inverse=True)
     number, x = inverse.ravel(), np.asarray(rows[:, 2:], np.float64)
     vertex_map, bare = rows[:, 0].astype(np.int64), rows[:, 1] == 0
-    step = max(min(extent, 1.0) * _FLAT, extent * _FLAT / MOST_PICTURES)
+    step = min(extent, 1.0) * _FLAT
     places = _add(sections, OWN, order, number[order.corners], vertex_map, (x, step))
     sections.add(OWN + "bare", np.diff(np.sort(places[bare]), prepend=0)[:, None])
     cut = Mesh(mesh.vertices[vertex_map], number.reshape(-1, 3)[known])

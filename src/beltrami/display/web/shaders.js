@@ -105,8 +105,9 @@ void main() {
   float fill = max(dot(seen, normalize(u_eye - v_position)), 0.0);
   float light = 0.38 + 0.50 * max(dot(seen, u_light), 0.0) + 0.16 * fill;
   float t = clamp((v_value - u_range.x) / (u_range.y - u_range.x), 0.0, 1.0);
-  vec3 paint = mix(u_clay, texture(u_colours, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb, u_colored);
   bool mapped = v_uv.x >= -1.0; // corners without coordinates are far to the left
+  float colored = mapped ? u_colored : 0.0; // what a map does is not known there
+  vec3 paint = mix(u_clay, texture(u_colours, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb, colored);
   if (u_pictured > 0.0) {
     vec3 light = texture(u_picture, u_laid.xy + v_uv * u_laid.zw).rgb;
     vec3 bright = 1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055;
