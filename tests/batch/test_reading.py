@@ -15,10 +15,12 @@ from beltrami.batch.memory import BASE
 from beltrami.batch.reading import Input, _unpacked, mesh_of, read_input
 from beltrami.compression.compress import compress
 from beltrami.errors import FileFormatError, UnknownNameError
-from beltrami.io.registry import write_mesh
+from beltrami.io import extras
+from beltrami.io.registry import read_mesh, write_mesh
 from beltrami.mesh.shapes import icosphere
 
 MESH = icosphere(1)
+_TRIANGLE = (np.eye(3), np.array([[0, 1, 2]]), {})
 
 
 def read(place, allowed=None):
@@ -180,3 +182,37 @@ def test_a_source_without_a_size_is_read_to_its_end(tmp_path, monkeypatch):
     assert read("any.ply").n_faces == MESH.n_faces
     with pytest.raises(TooLargeError):
         read("any.ply", BASE + 100)
+
+
+def test_a_package_out_of_memory_does_not_blame_the_file(tmp_path, monkeypatch):
+    path = tmp_path / "mesh.vtk"
+    write_mesh(path, MESH)
+
+    def full(*_):
+        raise MemoryError("no room")
+
+    monkeypatch.setitem(extras.READERS, ".vtk", full)
+    with pytest.raises(MemoryError, match="no room"):
+        read(path)
+
+
+def test_a_broken_file_of_a_package_has_its_own_name(tmp_path):
+    path = tmp_path / "broken.vtk"
+    path.write_bytes(b"nothing")
+    with pytest.raises(FileFormatError) as error:
+        read(path)
+    assert error.value.path == str(path)
+
+
+def test_what_is_compressed_twice_has_the_room_of_the_file(tmp_path, monkeypatch):
+    pytest.importorskip("meshio")
+    rooms = []
+    monkeypatch.setattr("beltrami.io.unpacking.FREE", 1)
+    monkeypatch.setitem(
+        extras.READERS, ".vtk", lambda _, room: (rooms.append(room.most), *_TRIANGLE)[1:]
+    )
+    path = tmp_path / "mesh.vtk.gz"
+    path.write_bytes(gzip.compress(bytes(range(50)) * 90))
+    assert read(path).n_faces == 1
+    assert read_mesh(path).n_faces == 1
+    assert rooms == [100 * path.stat().st_size] * 2

@@ -32,16 +32,16 @@ def test_ratios_are_of_each_seed_and_their_interval_is_students():
 
 def test_goals_are_judged_for_each_group():
     assert told([0.6, 0.7, 0.81], (0.7, 0.8)) == (
-        "median 0.70 (<= 0.70: met), worst 0.81 (<= 0.80: **missed**)"
+        "median 0.700 (<= 0.70: met), worst 0.810 (<= 0.80: **missed**)"
     )
     blob = Case("blob", 0.2, 9, (facts((2, 0.3), (4, 0.5)),))
     can = Case("can", 0.2, 9, (facts((6, 0.45), (4, 0.5)),))
     odd = [OddCase("can", "strong", {"distance": 2.0, "linear": 1.0, "warned": False})]
     lines = goals([[blob], [can]], odd, []).splitlines()
-    assert "0.60" in lines[2]
-    assert "0.90 (<= 0.80: **missed**)" in lines[2]
+    assert "0.600" in lines[2]
+    assert "0.900 (<= 0.80: **missed**)" in lines[2]
     assert lines[3].endswith("not measured |")  # can is not organic
-    assert "said 0 of 1; median 2.00 (<= 1.00: **missed**)" in lines[-1]
+    assert "said 0 of 1; median 2.000 (<= 1.00: **missed**)" in lines[-1]
 
 
 def test_what_is_kept_is_not_measured_again(tmp_path, monkeypatch):

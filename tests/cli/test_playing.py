@@ -1,7 +1,9 @@
 """Chapters in several processes: the same as one after another, and none waits for another."""
 
 import os
+import signal
 from dataclasses import replace
+from multiprocessing import active_children
 
 import pytest
 
@@ -64,6 +66,35 @@ def test_processes_have_one_thread_and_what_was_set_stays(monkeypatch):
         assert (os.environ["OMP_NUM_THREADS"], os.environ["OPENBLAS_NUM_THREADS"]) == ("1", "3")
     assert "OMP_NUM_THREADS" not in os.environ
     assert os.environ["OPENBLAS_NUM_THREADS"] == "3"
+
+
+def test_a_process_that_was_asked_to_leave_plays_no_other_chapter(tmp_path):
+    before = signal.getsignal(signal.SIGINT)
+    here = stage(tmp_path / "a")
+    try:
+        playing._leave_when_asked()
+        assert playing._play_in_process(here, "files")[1]
+        with pytest.raises(SystemExit, match="130"):
+            signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)  # again, while it tidies up
+        with pytest.raises(SystemExit, match="130"):
+            playing._play_in_process(here, "files")
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, BeltramiError])
+def test_no_process_is_left_behind(tmp_path, monkeypatch, error):
+    monkeypatch.setattr(playing, "_cores", lambda: 2)
+    monkeypatch.setattr(playing, "CHAPTERS", ("geodesics", "files", "surface"))
+    monkeypatch.setattr(playing, "LARGE", 0)
+
+    def fail(done, total):
+        raise error
+
+    with pytest.raises(error):
+        playing.play(stage(tmp_path / "a"), fail)
+    assert not active_children()
 
 
 @pytest.mark.parametrize("name", playing.CHAPTERS)

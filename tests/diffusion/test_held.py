@@ -3,11 +3,20 @@ import pytest
 from scipy.sparse import csr_array
 
 import dense_oracles as oracle
+from beltrami.diffusion.heat import heat
 from beltrami.diffusion.held import free_part, held_values, held_vertices, like_columns
+from beltrami.diffusion.interpolate import interpolate
+from beltrami.diffusion.poisson import poisson
+from beltrami.diffusion.regularize import regularize
+from beltrami.diffusion.smooth_mesh import smooth_mesh
+from beltrami.diffusion.smoothing import smooth
+from beltrami.diffusion.smoothing_methods import SMOOTHING_METHODS
 from beltrami.diffusion.steady import steady_state
+from beltrami.diffusion.wave import wave
 from beltrami.errors import DimensionError, MeshError, NonFiniteError
 from beltrami.mesh.connectivity import component_labels
 from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.shapes import grid
 from beltrami.operators.laplacian import laplacian
 from meshes_of_the_errata import IRREGULAR, MESHES
 
@@ -118,3 +127,35 @@ def test_the_state_at_rest_against_a_dense_pseudoinverse(mass, hold):
 def test_a_single_vertex_is_at_rest():
     part = free_part(csr_array((1, 1)), csr_array(np.eye(1)), np.zeros(1, bool))
     assert steady_state(part, np.zeros(1)).tolist() == [0]
+
+
+ALL_HELD = {
+    "smooth": lambda pair, f, hold: smooth(
+        laplacian(pair.domain, "combinatorial"), f, 2, hold=hold
+    ),
+    "heat": lambda pair, f, hold: heat(pair, f, 1.0, hold=hold),
+    "heat for no time": lambda pair, f, hold: heat(pair, f, 0.0, hold=hold),
+    "wave": lambda pair, f, hold: list(wave(pair, f, None, [0, 1], hold=hold)),
+    "regularize": lambda pair, f, hold: regularize(pair, f, 1.0, hold=hold),
+    "interpolate": lambda pair, f, hold: interpolate(pair, hold, f),
+    "poisson": lambda pair, f, hold: poisson(pair, f, hold=hold),
+    "smooth_mesh": lambda pair, _, hold: smooth_mesh(pair.domain, hold=hold),
+}
+
+
+@pytest.mark.parametrize("name", ALL_HELD)
+def test_a_problem_with_nothing_free_is_refused(name):
+    pair = laplacian(MESHES["open"]())
+    f, hold = oracle.rough_functions(pair.domain, 1)[:, 0], np.ones(pair.n, bool)
+    with pytest.raises(MeshError, match=r"all vertices are held\. Leave some free"):
+        ALL_HELD[name](pair, f, hold)
+    hold[7] = False
+    ALL_HELD[name](pair, f if name != "interpolate" else f[hold], hold)
+
+
+@pytest.mark.parametrize("method", SMOOTHING_METHODS)
+def test_a_mesh_that_is_all_boundary_cannot_hold_it(method):
+    strip = grid(6, 1)
+    time = {"time": 0.1} if "time" in SMOOTHING_METHODS[method].options else {}
+    with pytest.raises(MeshError, match="all vertices are held"):
+        smooth_mesh(strip, method, hold_boundary=True, **time)

@@ -167,7 +167,6 @@ def test_little_input_and_what_is_refused():
     alone = laplacian(scipy.sparse.csr_array((1, 1)), mass="unit")
     assert poisson(alone, [0.0]).tolist() == [0]
     assert poisson(alone, [3.0], screen=2).tolist() == [1.5]
-    assert poisson(alone, [3.0], hold=[0], values=7).tolist() == [7]
     pair = laplacian(MESHES["open"]())
     f = np.zeros(pair.n)
     assert poisson(pair, np.zeros((pair.n, 0))).shape == (pair.n, 0)

@@ -334,8 +334,6 @@ def test_little_input(method):
     f = start("open")[0]
     assert list(wave(pair, f, None, [], method)) == []
     assert frames(pair, np.zeros((pair.n, 0)), None, [0.1], method).shape == (1, pair.n, 0)
-    still = frames(pair, f, f, [0, 1], method, hold=np.ones(pair.n, bool))
-    assert np.array_equal(still, [f, f])
     ((time, _),) = wave(pair, f, None, 0.25, method)
     assert time == 0.25
     seen = []

@@ -14,6 +14,7 @@ import pytest
 from beltrami.errors import FileFormatError, MeshError
 from beltrami.io import unpacking
 from beltrami.io.function import read_function
+from beltrami.io.packed_inside import require_room
 from beltrami.io.registry import read_mesh, write_mesh
 from beltrami.mesh.shapes import icosphere
 
@@ -122,6 +123,25 @@ def test_gifti_that_is_compressed_inside(tmp_path, small):
     assert refused(read_function, honest) < 8 * MEGA
 
 
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ('Encoding="GZipBase64Binary"', ""),  # what it is then, too
+        ("<Data>", "<Data><MetaData/>"),
+        ("<Data>", "<Data>eJwDAAAAAAE=</Data><Data>"),
+    ],
+)
+def test_gifti_cannot_hide_what_is_compressed(tmp_path, small, before, after):
+    pytest.importorskip("nibabel")
+    path = gifti(tmp_path, bytes(4 * MEGA), (4 * MEGA // 12, 3))
+    text = path.read_text()
+    assert before in text
+    path.write_text(text.replace(before, after, 1))
+    for read in (read_mesh, read_function):
+        with pytest.raises(FileFormatError, match=r"found more: it may be a bomb|MetaData in Data"):
+            read(path)
+
+
 def vtu(tmp_path, compression, points):
     """Write a VTU file, with these points instead of its own."""
     import meshio
@@ -175,3 +195,45 @@ def test_lzma_streams_are_bounded_in_memory():
 
     assert b"".join(_stream(lzma.compress(b"ab" * MEGA))) == b"ab" * MEGA
     assert b"".join(_stream(lzma.compress(bytes(9))[:-1])) in (b"", bytes(9))  # and it ends
+
+
+def hidden(head):
+    """Return a VTU file of which one array has this head in 8 bytes each, and a bomb."""
+    packed = zlib.compress(bytes(4 * MEGA))
+    sizes = np.array([1, 0, 0, len(packed)], head)
+    text = (base64.b64encode(sizes.tobytes()) + base64.b64encode(packed)).decode()
+    return (
+        '<VTKFile type="UnstructuredGrid" version="0.1" header_type="UInt64" '
+        'byte_order="LittleEndian" compressor="vtkZLibDataCompressor"><UnstructuredGrid>'
+        '<Piece NumberOfPoints="1" NumberOfCells="0"><Points><DataArray type="Float64" '
+        f'NumberOfComponents="3" format="binary">{text}</DataArray></Points></Piece>'
+        "</UnstructuredGrid></VTKFile>"
+    )
+
+
+def test_vtu_cannot_hide_what_is_compressed(put, small):
+    pytest.importorskip("meshio")
+    whole = hidden("<u8")
+    assert refused(read_mesh, put("a.vtu", whole)) < 8 * MEGA
+    text = whole.partition('format="binary">')[2].partition("<")[0]
+    at, rest = text[:44], text[44:]
+    appended = whole.replace(f'format="binary">{text}', 'format="appended" offset="OFF">')
+    tail = f'<AppendedData encoding="base64" xencoding="raw">_{text}</AppendedData></VTKFile>'
+    nested = "<DataArray><AppendedData>_AAAA</AppendedData></DataArray></Points>"
+    for other in (
+        whole.replace("UInt64", "Int64"),
+        whole.replace(text, at + "!" * len(text) + rest),
+        appended.replace("OFF", "0").replace("</VTKFile>", tail),
+        appended.replace("OFF", "0").replace("</Points>", nested).replace("</VTKFile>", tail),
+        appended.replace("OFF", f"-{len(text)}").replace("</VTKFile>", tail),
+    ):
+        path = put("a.vtu", other)
+        with pytest.raises(FileFormatError):
+            require_room(path, ".vtu", unpacking.room_of(path, path.stat().st_size))
+
+
+def test_lzma_has_no_second_stream():
+    from beltrami.io.packed_inside import _stream
+
+    with pytest.raises(ValueError, match="follows the stream"):
+        list(_stream(lzma.compress(b"a") + lzma.compress(bytes(MEGA))))

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
+from beltrami.errors import MeshError
 from beltrami.mesh.half_edges import BOUNDARY, NOT_MANIFOLD, _paired, pair_sides
 from beltrami.mesh.topology import Topology
 from strategies import any_arrays
@@ -76,6 +77,21 @@ def test_more_edges_on_the_boundary_than_a_disk_has(n):
     check(faces, n)
 
 
+@pytest.mark.parametrize("n", [5, 9, 60])
+def test_room_is_enough_or_said_to_be_too_little(n):
+    """An edge may be written up to the first side that is not yet read, and not over it."""
+    faces = np.random.default_rng(n).integers(n, size=(30, 3))
+    edges = list(sides_of(faces))
+    enough = 0
+    for room in range(91):
+        found = _paired(faces.view(np.uint64), n, room)
+        if found is not None:
+            enough += 1
+            assert list(map(tuple, found.edges.tolist())) == edges
+    assert found is not None
+    assert enough < 91 or n == 5  # where nearly all edges have more than two faces
+
+
 def test_no_faces():
     pairing = pair_sides(np.zeros((0, 3), np.int64), 5)
     assert pairing.edges.shape == (0, 2)
@@ -104,6 +120,14 @@ def test_large_indices_do_not_collide():
         [0, 1], [0, n - 2], [0, n - 1], [1, n - 1], [n - 2, n - 1],
     ]  # fmt: skip
     assert pairing.twins.tolist() == [[-1, -1, 5], [-1, -1, 2]]
+
+
+def test_numbers_of_more_than_32_bits_are_refused():
+    one = np.array([[0, 1, 2]])
+    with pytest.raises(MeshError, match="715,827,883 faces and 3 vertices"):
+        pair_sides(np.broadcast_to(one, (2**31 // 3 + 1, 3)), 3)
+    with pytest.raises(MeshError, match="1 faces and 4,294,967,299 vertices"):
+        pair_sides(one, 2**32 + 3)
 
 
 def test_results_cannot_be_written_into():

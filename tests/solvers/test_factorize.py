@@ -109,3 +109,10 @@ def test_complex_and_empty_matrices_are_refused():
     for wrong in (csr_array(np.diag([1 + 1j, 2])), csr_array((0, 0))):
         with pytest.raises(DimensionError):
             factorize(wrong)
+
+
+@pytest.mark.parametrize(("x", "b"), [((3,), (3,)), ((4,), (4, 1)), ((3, 4), (3, 4)), ((), ())])
+def test_the_backward_error_is_that_of_solutions_of_this_matrix(x, b):
+    factor = factorize(csr_array(np.eye(4)))
+    with pytest.raises(DimensionError, match="where 4 rows are needed"):
+        factor.backward_error(np.ones(x), np.ones(b))

@@ -78,6 +78,8 @@ def mesh_of(given: Input, allowed: int | None = None) -> Mesh:
         If the bytes are not what the suffix promises, or a bomb (see ``read_mesh``).
     TooLargeError
         If they unpack to more than the memory that is allowed.
+    MemoryError
+        If a package runs out of memory while it reads.
     """
     content = given.taken()
     if given.packed:
@@ -89,7 +91,20 @@ def mesh_of(given: Input, allowed: int | None = None) -> Mesh:
     with tempfile.TemporaryDirectory() as folder:  # these packages read files only
         path = Path(folder, f"mesh{given.suffix}")
         path.write_bytes(content.data)
-        return extras.read(path, given.suffix)
+        most = room_of(given.name, given.bytes).most  # of the source, not of what it unpacked to
+        try:
+            return extras.read(path, given.suffix, most)
+        except FileFormatError as error:
+            _require_memory(error)
+            raise FileFormatError(given.name, error.problem) from error
+
+
+def _require_memory(error: BaseException | None) -> None:
+    """Raise the MemoryError behind an error: a larger limit may do, so the file is not to blame."""
+    while error is not None:
+        if isinstance(error, MemoryError):
+            raise error
+        error = error.__cause__
 
 
 def _opened(place: str) -> Any:

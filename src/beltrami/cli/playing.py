@@ -10,7 +10,7 @@ import warnings
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from importlib import import_module
 from multiprocessing import active_children, get_context
@@ -51,7 +51,7 @@ def _together(stage: Stage, progress: Progress, processes: int) -> list[tuple[Ch
     pool = ProcessPoolExecutor(processes, get_context("spawn"), initializer=_leave_when_asked)
     try:
         with _one_thread_each():
-            futures = {name: pool.submit(play_one, stage, name) for name in order}
+            futures = {name: pool.submit(_play_in_process, stage, name) for name in order}
         for done, _ in enumerate(as_completed(futures.values()), 1):
             progress(done, len(CHAPTERS))
         return [futures[name].result() for name in CHAPTERS]
@@ -62,7 +62,8 @@ def _together(stage: Stage, progress: Progress, processes: int) -> list[tuple[Ch
     except KeyboardInterrupt:
         for child in active_children():
             if child.pid is not None:
-                os.kill(child.pid, signal.SIGINT)
+                with suppress(OSError):  # it has left already: the terminal asked it too
+                    os.kill(child.pid, signal.SIGINT)
         raise
     finally:
         pool.shutdown(cancel_futures=True)
@@ -107,6 +108,21 @@ def play_one(stage: Stage, name: str) -> tuple[Chapter, bool]:
     return replace(chapter, seconds=time.perf_counter() - start, warnings=told), possible
 
 
+def _play_in_process(stage: Stage, name: str) -> tuple[Chapter, bool]:
+    """Play a chapter in a process of the pool; nothing more once it was asked to leave.
+
+    The pool takes the end of an interrupted chapter for its result, and hands out the next one.
+    """
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        sys.exit(130)
+    return play_one(stage, name)
+
+
 def _leave_when_asked() -> None:
     """Leave a process of the pool by Ctrl-C without a traceback; the first process tells."""
-    signal.signal(signal.SIGINT, lambda *_: sys.exit(130))
+    signal.signal(signal.SIGINT, _leave)
+
+
+def _leave(*_: object) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # so that it tidies up in peace, and is known
+    sys.exit(130)

@@ -53,8 +53,6 @@ def bilaplacian_flow(
     L, delta = laplacian.stiffness, time / steps
     matrix = csr_array(laplacian.mass + delta * (L @ diagonal_matrix(1 / laplacian.masses) @ L))
     free = ~held
-    if not free.any():
-        return f.copy()
     inner = matrix if free.all() else csr_array(matrix[free][:, free])
     outer = matrix[free][:, held] @ f[held]
     positions = getattr(laplacian.domain, "vertices", None)

@@ -110,8 +110,9 @@ def heat(
         times the area).
     NegativeWeightError
         With the exact and the spectral method, if L is not known to be positive semi-definite.
-    DimensionError, NonFiniteError, UnknownNameError, BeltramiError
-        If f, s, the method, its options, the basis or the numbers are not valid.
+    DimensionError, NonFiniteError, UnknownNameError, MeshError, BeltramiError
+        If f, s, the method, its options, the basis or the numbers are not valid, or all vertices
+        are held.
 
     Examples
     --------
@@ -145,7 +146,7 @@ def heat(
         steps = _explicit_count(laplacian, time, steps)
     if method in ("spectral", "exact"):
         laplacian.require_semi_definite(f"the {method} method")
-    if time == 0 or held.all():
+    if time == 0:
         return values.copy()
     part = free_part(laplacian.stiffness, laplacian.mass, held, positions_of(laplacian))
     load = -(part.stiffness_border @ values[held]) + np.zeros_like(values[part.free])

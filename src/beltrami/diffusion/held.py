@@ -124,10 +124,23 @@ def positions_of(laplacian: Laplacian) -> Floats | None:
 
 
 def held_vertices(hold: ArrayLike, n: int) -> Booleans:
-    """Turn indices of held vertices, or a mask of them, into a mask."""
+    """Turn indices of held vertices, or a mask of them, into a mask.
+
+    Raises
+    ------
+    MeshError
+        If an index is outside, or nothing is left free.
+    """
     held = np.zeros(n, np.bool_)
     held[as_indices(hold, n, "held vertices")] = True
+    require_free(held)
     return held
+
+
+def require_free(held: Booleans) -> None:
+    """Raise MeshError if all vertices are held, so that there is no problem to solve."""
+    if held.all():
+        raise MeshError("all vertices are held", remedy="Leave some free.")
 
 
 def held_values(vertices: ArrayLike, values: ArrayLike, n: int) -> tuple[Booleans, Floats]:
@@ -136,7 +149,7 @@ def held_values(vertices: ArrayLike, values: ArrayLike, n: int) -> tuple[Boolean
     Raises
     ------
     MeshError
-        If a vertex is named twice.
+        If a vertex is named twice, or nothing is left free.
     DimensionError, NonFiniteError
         If the values are not one number, h of them or (h, c), or not finite.
     """

@@ -46,8 +46,8 @@ def interpolate(
     Raises
     ------
     MeshError
-        If a component has no value, or a vertex two; or if the order is 2 and the mass is not
-        diagonal.
+        If a component has no value, all vertices have one, or a vertex has two; or if the order is
+        2 and the mass is not diagonal.
     NegativeWeightError
         If L is not known to be positive semi-definite.
     DimensionError, NonFiniteError, BeltramiError
@@ -79,8 +79,6 @@ def interpolate(
     require_reached(part, "no value is given")
     result = np.empty((laplacian.n, *fixed.shape[1:]))
     result[held] = fixed
-    if not part.free.any():
-        return result
     if order == 2:
         part = free_part(_squared(laplacian), laplacian.mass, held, positions)
     factor = factorize(part.stiffness, part.positions)

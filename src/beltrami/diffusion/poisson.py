@@ -68,7 +68,7 @@ def poisson(
     NegativeWeightError
         If L is not known to be positive semi-definite.
     MeshError, DimensionError, NonFiniteError, BeltramiError
-        If the numbers, the vertices or the shapes are not valid.
+        If the numbers, the vertices or the shapes are not valid, or all vertices are held.
 
     Notes
     -----
@@ -95,8 +95,6 @@ def poisson(
     result[held] = fixed
     part = free_part(laplacian.stiffness, laplacian.mass, held, positions_of(laplacian))
     inner = load[part.free] - part.stiffness_border @ fixed
-    if not part.free.any():
-        return result
     if screen > 0:
         matrix = csr_array(part.stiffness + screen * part.mass)
         result[part.free] = _screened(part, matrix, inner - screen * (part.mass_border @ fixed))

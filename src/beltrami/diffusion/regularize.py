@@ -72,7 +72,8 @@ def regularize(
     SingularMatrixError
         If t is so large, or a weight so small, that it counts for nothing: see t = inf.
     MeshError
-        If a component has neither a weight nor a held vertex, or a weight is negative.
+        If a component has neither a weight nor a held vertex, all vertices are held, or a weight
+        is negative.
     NegativeWeightError
         If L is not known to be positive semi-definite.
     UnknownNameError, DimensionError, NonFiniteError, BeltramiError
@@ -110,9 +111,8 @@ def regularize(
     part = free_part(laplacian.stiffness, closeness, held, positions_of(laplacian))
     _require_weights(part, "neither a weight nor a held vertex")
     result = values.copy()
-    if part.free.any():
-        y = _minimum(part, load[part.free], (values / scale)[held], t)
-        result[part.free] = y * scale[part.free]
+    y = _minimum(part, load[part.free], (values / scale)[held], t)
+    result[part.free] = y * scale[part.free]
     return result
 
 

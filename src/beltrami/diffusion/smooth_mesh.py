@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, as_indices
+from beltrami._arrays import Floats
 from beltrami._kinds import checked
 from beltrami._progress import Progress
+from beltrami.diffusion.held import held_vertices, require_free
 from beltrami.diffusion.smoothing_methods import SMOOTHING_METHODS
 from beltrami.errors import BeltramiError, check_name
 from beltrami.mesh.door import require_mesh
@@ -90,7 +91,7 @@ def smooth_mesh(
         If the volume is to be kept of a mesh with boundary.
     BeltramiError
         If ``time`` is missing, an option is given that the method has not, ``keep`` would move
-        what is held, or the surface degenerates on the way.
+        what is held, all vertices are held, or the surface degenerates on the way.
     NegativeWeightError, StepTooLongError, MeshError
         As ``smooth`` and ``heat``.
 
@@ -126,10 +127,10 @@ def smooth_mesh(
             raise BeltramiError(
                 f"the method {method!r} has no {name}; it has {', '.join(chosen.options)}"
             )
-    held = np.zeros(mesh.n_vertices, np.bool_)
-    held[as_indices(hold, mesh.n_vertices, "held vertices")] = True
+    held = held_vertices(hold, mesh.n_vertices)
     if hold_boundary:
         held |= mesh.topology.on_boundary
+        require_free(held)
     if keep is not None:
         check_name("quantity to keep", keep, KEPT)
         if held.any():

@@ -8,10 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
-from beltrami._arrays import Booleans, Floats, as_function, as_indices
+from beltrami._arrays import Booleans, Floats, as_function
 from beltrami._jit import kernel
 from beltrami._kinds import checked
 from beltrami._progress import Progress, stages
+from beltrami.diffusion.held import held_vertices
 from beltrami.errors import BeltramiError, StepTooLongError
 from beltrami.operators.domain import require_laplacian
 from beltrami.operators.pair import Laplacian
@@ -63,8 +64,8 @@ def smooth(
         If a weight is negative: averages may then leave the range of the values; ``error.edges``.
     StepTooLongError
         If ``step`` is beyond the proven bound; ``error.longest`` is the longest allowed.
-    DimensionError, NonFiniteError, BeltramiError
-        If f or the numbers are not valid.
+    DimensionError, NonFiniteError, MeshError, BeltramiError
+        If f or the numbers are not valid, or all vertices are held.
 
     Notes
     -----
@@ -82,8 +83,7 @@ def smooth(
     require_laplacian(laplacian, "averaging")
     values = as_function(f, laplacian.n)
     laplacian.require_non_negative("averaging")
-    held = np.zeros(laplacian.n, np.bool_)
-    held[as_indices(hold, laplacian.n, "held vertices")] = True
+    held = held_vertices(hold, laplacian.n)
     if not 0 <= steps < np.inf or steps != int(steps):
         raise BeltramiError(f"steps must be a whole number >= 0, not {steps}")
     if not step >= 0:

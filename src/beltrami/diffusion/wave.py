@@ -96,8 +96,9 @@ def wave(
         If the basis may leave out more than the tolerance.
     NegativeWeightError
         If L is not known to be positive semi-definite: such waves explode.
-    DimensionError, NonFiniteError, UnknownNameError, BeltramiError
-        If f, g, the times, the method, its options or the basis are not valid.
+    DimensionError, NonFiniteError, UnknownNameError, MeshError, BeltramiError
+        If f, g, the times, the method, its options or the basis are not valid, or all vertices
+        are held.
 
     Notes
     -----
@@ -138,9 +139,7 @@ def wave(
     level, drift = part.level(part.mass @ u), part.level(part.mass @ v)
     load = -(part.stiffness_border @ position[held]) + np.zeros_like(u)
     start = (part, u - level, v - drift, load, frames)
-    if held.all():
-        states = iter([u] * len(frames))
-    elif method == "spectral":
+    if method == "spectral":
         states = _spectral(*start, basis, 1e-3 if tolerance is None else tolerance)
     else:
         scheme = leapfrog_states if method == "leapfrog" else implicit_states

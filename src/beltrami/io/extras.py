@@ -39,7 +39,7 @@ def read(path: str | os.PathLike[str], suffix: str, max_bytes: int | None = None
     """
     place = Path(path)
     with plain_file(place, suffix, max_bytes) as plain:
-        room = room_of(place, plain.stat().st_size, max_bytes)
+        room = room_of(place, place.stat().st_size, max_bytes)
         try:
             vertices, faces, data = READERS[suffix](plain, room)
         except MissingExtraError:

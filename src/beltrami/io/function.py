@@ -80,7 +80,7 @@ def read_function(
 
 def _foreign(place: Path, suffix: str, max_bytes: int | None) -> Any:
     with plain_file(place, suffix, max_bytes) as plain:
-        room = room_of(place, plain.stat().st_size, max_bytes)
+        room = room_of(place, place.stat().st_size, max_bytes)
         try:
             return _OTHERS[suffix](plain, room)
         except (FileFormatError, MissingExtraError):

@@ -18,7 +18,9 @@ from beltrami.errors import FileFormatError
 from beltrami.io.unpacking import Room, inflated
 
 _BLOCK: Final = 1 << 20
-_RAW: Final = re.compile(rb"<AppendedData[^>]*encoding=[\"']raw[\"'][^>]*>\s*_")
+_RAW: Final = re.compile(b'<AppendedData[^>]+">')
+_ORDERS: Final = {"LittleEndian": "<", "BigEndian": ">"}
+_HEADS: Final = {"UInt32": "u4", "UInt64": "u8"}
 
 
 def require_room(path: Path, suffix: str, room: Room) -> None:
@@ -38,56 +40,80 @@ def require_room(path: Path, suffix: str, room: Room) -> None:
 def _of_gifti(path: Path, name: object) -> Iterator[bytes]:
     """Unpack each array of a GIFTI file as far as its sizes say, and a byte more."""
     arrays: list[tuple[int, list[str]]] = []
-    reading: list[bool] = [False]
+    most, inside = [-1], [False]  # of the array that was begun last; in its data
 
     def start(name: str, attributes: dict[str, str]) -> None:
+        if inside[0]:
+            raise ValueError(f"{name} in Data")
         if name == "DataArray":
             sizes = [int(v) for key, v in attributes.items() if re.fullmatch(r"Dim\d", key)]
-            packed = "gz" in attributes.get("Encoding", "").lower()
-            arrays.append((8 * math.prod(sizes) if packed else -1, []))
-        reading[0] = name == "Data"
+            packed = "gz" in attributes.get("Encoding", "gz").lower()
+            most[0] = 8 * math.prod(sizes) if packed else -1
+        if name == "Data":
+            inside[0] = True
+            arrays.append((most[0], []))
+
+    def end(name: str) -> None:
+        inside[0] = inside[0] and name != "Data"
 
     def text(piece: str) -> None:
-        if reading[0] and arrays and arrays[-1][0] >= 0:
+        if inside[0] and arrays[-1][0] >= 0:
             arrays[-1][1].append(piece)
 
     parser = expat.ParserCreate()
-    parser.StartElementHandler, parser.CharacterDataHandler = start, text
+    parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.CharacterDataHandler = text
     with path.open("rb") as file:
         parser.ParseFile(file)
-    for most, pieces in arrays:
+    for size, pieces in arrays:
         found = 0
-        for block in inflated(base64.b64decode("".join(pieces))) if most >= 0 else ():
+        for block in inflated(base64.b64decode("".join(pieces))) if size >= 0 else ():
             found += len(block)
-            if found > most:
+            if found > size:
                 raise FileFormatError(
-                    name, f"expected at most {most} bytes in an array, as it says, found more"
+                    name, f"expected at most {size} bytes in an array, as it says, found more"
                 )
             yield block
 
 
 def _of_vtu(path: Path, _name: object) -> Iterator[bytes]:
     """Unpack the blocks of all arrays of a VTU file, whichever of its three ways they stand in."""
-    content = path.read_bytes()
-    raw = _RAW.search(content)
-    if raw:
-        content, data = content[: raw.end()] + b"</AppendedData></VTKFile>", content[raw.end() :]
-    root = ET.fromstring(content)  # noqa: S314 - expat bounds what entities become
+    root, data = _tree(path.read_bytes())
     compressor = root.get("compressor")
     if compressor is None:
         return
     unpack = _stream if compressor == "vtkLZMADataCompressor" else inflated
-    size = 8 if root.get("header_type") == "UInt64" else 4
-    kind = np.dtype(f"{'>' if root.get('byte_order') == 'BigEndian' else '<'}u{size}")
-    if raw:
-        yield from _of_bytes(data[: data.rfind(b"</AppendedData>")], kind, unpack)
+    kind = np.dtype(
+        _ORDERS[root.get("byte_order", "LittleEndian")] + _HEADS[root.get("header_type", "UInt32")]
+    )
+    if data is not None:
+        yield from _of_bytes(data, kind, unpack)
         return
-    appended = "".join(part.text or "" for part in root.iter("AppendedData")).strip()
-    for array in root.iter("DataArray"):
+    appended = "".join(part.text or "" for part in root.findall("AppendedData")).strip()
+    for array in root.iter():
         if array.get("format") == "binary":
             yield from _of_text((array.text or "").strip(), 0, kind, unpack)
         elif array.get("format") == "appended":
-            yield from _of_text(appended, 1 + int(array.get("offset", "0")), kind, unpack)
+            at = int(array.get("offset", "0"))
+            if at < 0:
+                raise ValueError(f"an array at {at}")
+            yield from _of_text(appended, 1 + at, kind, unpack)
+
+
+def _tree(content: bytes) -> tuple[ET.Element, bytes | None]:
+    """Return the elements, and the raw bytes among them where the whole is no XML.
+
+    They are told apart as meshio does, or it might unpack what was not looked into.
+    """
+    try:
+        return ET.fromstring(content), None  # noqa: S314 - expat bounds what entities become
+    except ET.ParseError:
+        found, end = _RAW.search(content), content.find(b"</AppendedData>")
+        if found is None:
+            raise
+    rest = content[: found.end()] + content[end:]
+    data = content[found.end() : end].partition(b"_")[2].rsplit(b"\n", 1)[0]
+    return ET.fromstring(rest.decode()), data  # noqa: S314 - as above
 
 
 def _of_text(
@@ -118,6 +144,8 @@ def _of_bytes(data: bytes, kind: np.dtype[Any], unpack: Callable[[bytes], Iterat
 def _of_blocks(
     data: bytes, sizes: list[int], unpack: Callable[[bytes], Iterator[bytes]]
 ) -> Iterator[bytes]:
+    if len(data) != sum(sizes):
+        raise ValueError(f"{len(data)} bytes where the blocks have {sum(sizes)}")
     at = 0
     for size in sizes:
         yield from unpack(data[at : at + size])
@@ -134,7 +162,7 @@ def _decoded(text: str, at: int, size: int) -> bytes:
 
 
 def _stream(data: bytes) -> Iterator[bytes]:
-    """Decompress one stream of LZMA, a block at a time."""
+    """Decompress one stream of LZMA, a block at a time; no other one may follow."""
     unpacker = lzma.LZMADecompressor(memlimit=1 << 28)
     while not unpacker.eof:
         block = unpacker.decompress(data, _BLOCK)
@@ -142,6 +170,8 @@ def _stream(data: bytes) -> Iterator[bytes]:
             return
         yield block
         data = b""
+    if unpacker.unused_data:
+        raise ValueError("something follows the stream of LZMA")
 
 
 _LOOKS: Final[dict[str, Callable[[Path, object], Iterator[bytes]]]] = {

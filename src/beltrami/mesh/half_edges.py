@@ -9,9 +9,11 @@ from numpy.typing import NDArray
 
 from beltrami._arrays import Integers, read_only
 from beltrami._jit import kernel, unsigned
+from beltrami.errors import MeshError
 
 BOUNDARY = -1  # the twin of a side that no other face shares
 NOT_MANIFOLD = -2  # the twin of a side that more than two faces share
+_MOST = 2**31 - 1  # half-edges or vertices
 
 
 class HalfEdges(NamedTuple):
@@ -54,6 +56,11 @@ def pair_sides(faces: Integers, n: int) -> HalfEdges:
 
     Chapter items: U3, U8, U17, P6, P9.
 
+    Raises
+    ------
+    MeshError
+        If there are 2³¹ half-edges or vertices, or more: their numbers have 32 bits.
+
     Examples
     --------
     >>> import numpy as np
@@ -64,6 +71,8 @@ def pair_sides(faces: Integers, n: int) -> HalfEdges:
     [[5, -1, -1], [-1, -1, 0]]
     """
     m = len(faces)
+    if max(3 * m, n) > _MOST:
+        raise MeshError(f"{m:,} faces and {n:,} vertices have numbers of more than 32 bits")
     boundary = max(2 * n - m, 0)  # as many edges as a disk of these counts has there
     corners = unsigned(faces)
     paired = _paired(corners, n, boundary + m // 5 + 2)
