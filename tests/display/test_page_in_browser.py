@@ -548,8 +548,15 @@ def test_a_picture_where_the_mesh_says(browser, tmp_path, size):
         assert visit.told()["Method"] == "given with the mesh"
         turned = int(np.isfinite(uv).all(axis=(1, 2)).sum())
         assert visit.told()["Bijection, decided exactly"] == f"no: {turned} faces turn over"
+        values = "Array.from(beltrami.app.panel.recipe().flatValues)"
+        assert np.abs(visit.js(values)).max() < 0.01  # areas, all enlarged alike
+        visit.tab.select_option("#plane-shown", "angle")
+        stretched = np.array(visit.js(values))  # 0 where only faces without coordinates are
+        assert np.abs(stretched[stretched != 0] - np.log2(1.3 / 0.9)).max() < 0.01
         visit.tab.select_option("#plane-map", "0")
+        assert np.ptp(np.sort(visit.js(values))[8:]) > 0.1  # another map, another distortion
         assert visit.told()["Bijection, decided exactly"] == "yes"
+        assert visit.js("[0, 1].every((i) => beltrami.app.flat(i) === beltrami.app.flat(i))")
 
 
 def compare_with_picture(visit, mesh, blocks, unfold):
