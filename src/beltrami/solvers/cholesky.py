@@ -18,8 +18,10 @@ from beltrami._arrays import Floats, Integers
 from beltrami.errors import NotPositiveDefiniteError, SingularMatrixError
 from beltrami.solvers.blas import blas
 from beltrami.solvers.elimination import Elimination
-from beltrami.solvers.fronts import factorize_fronts
+from beltrami.solvers.fronts import ROOM, factorize_fronts
 from beltrami.solvers.many import (
+    ONE,
+    TWO,
     enter_many,
     leave_many,
     lines_for,
@@ -200,6 +202,8 @@ def _fill(matrix: csc_array, shape: Elimination, scale: Floats, values: NDArray[
             blas(values.dtype), values, np.empty(shape.stack, values.dtype),
             np.empty(len(shape.starts), np.int64), np.empty(len(shape.order), np.int64),
             np.empty(shape.tallest, np.uint64),
+            np.empty(shape.widest + shape.tallest + 8, np.int64), np.zeros(ROOM, values.dtype),
+            TWO if values.itemsize == 8 else ONE,
         )
     )  # fmt: skip
 

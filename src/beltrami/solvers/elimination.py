@@ -12,6 +12,8 @@ from beltrami._arrays import Integers
 from beltrami._jit import kernel
 from beltrami.solvers.dissection import Dissection
 
+GROUP = 16  # rows of a front that are treated together
+
 
 @dataclass(frozen=True, eq=False)
 class Elimination:
@@ -63,6 +65,12 @@ def eliminate(indptr: Integers, indices: NDArray[np.int32], dissection: Dissecti
         order, place, starts, children, siblings, row_starts, rows, panels,
         int(columns.max()), int(below.max()), _stack(children, siblings, below),
     )  # fmt: skip
+
+
+@kernel
+def stride(below: Any) -> Any:
+    """Return the numbers from one column of an update to the next: whole groups of rows."""
+    return -(-below // GROUP) * GROUP
 
 
 @kernel
@@ -128,13 +136,14 @@ def _rows(
 
 @kernel
 def _stack(children: Any, siblings: Any, below: Any) -> int:
-    """Return the room for updates: each block puts its square on top, and takes its children's."""
+    """Return the room for updates: each block puts its update on top, and takes its children's."""
     top = highest = 0
     for i in range(children.size):
-        highest = max(highest, top + below[i] * below[i])
+        room = below[i] * stride(below[i])
+        highest = max(highest, top + room)
         child = children[i]
         while child >= 0:
-            top -= below[child] * below[child]
+            top -= below[child] * stride(below[child])
             child = siblings[child]
-        top += below[i] * below[i]
+        top += room
     return highest

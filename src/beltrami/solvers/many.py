@@ -17,7 +17,7 @@ from beltrami.solvers.tiles import BACKWARD, BELOW, FORWARD, LINE, fetch, subtra
 _STRIP = 16  # columns of a panel at a time: as many streams of memory as processors foresee
 HALF = LINE // 2
 _LINE = (0, 0, 0, 0)
-_ONE, _TWO, _HALF = (_LINE,), (_LINE, _LINE), ((0, 0),)
+ONE, TWO, _HALF = (_LINE,), (_LINE, _LINE), ((0, 0),)
 
 
 def lines_for(n: int, count: int, dtype: DTypeLike) -> NDArray[Any]:
@@ -82,12 +82,12 @@ def solve_many(
         where, line = offsets.ctypes.data, 0
         while line + 2 * LINE <= row:
             _fetch_rows(offsets, height, right + line + 2 * LINE, row - line - 2 * LINE)
-            _forward(zero, right + line, where, columns, height, panel, step * height, _TWO)
+            forward(zero, right + line, where, columns, height, panel, step * height, TWO)
             line += 2 * LINE
         if line + LINE <= row:
-            _forward(zero, right + line, where, columns, height, panel, step * height, _ONE)
+            forward(zero, right + line, where, columns, height, panel, step * height, ONE)
         elif line < row:
-            _forward(zero, right + line, where, columns, height, panel, step * height, _HALF)
+            forward(zero, right + line, where, columns, height, panel, step * height, _HALF)
 
 
 @kernel
@@ -112,10 +112,10 @@ def solve_many_transposed(
         where, line = offsets.ctypes.data, 0
         while line + 2 * LINE <= row:
             _fetch_rows(offsets, height, right + line + 2 * LINE, row - line - 2 * LINE)
-            _backward(zero, right + line, where, columns, height, panel, step * height, _TWO)
+            _backward(zero, right + line, where, columns, height, panel, step * height, TWO)
             line += 2 * LINE
         if line + LINE <= row:
-            _backward(zero, right + line, where, columns, height, panel, step * height, _ONE)
+            _backward(zero, right + line, where, columns, height, panel, step * height, ONE)
         elif line < row:
             _backward(zero, right + line, where, columns, height, panel, step * height, _HALF)
 
@@ -166,7 +166,7 @@ def _fetch_rows(offsets: Any, height: int, x: int, width: int) -> None:
 
 
 @kernel
-def _forward(
+def forward(
     zero: Any,
     x: int,
     offsets: int,

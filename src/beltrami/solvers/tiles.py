@@ -154,12 +154,12 @@ class _Tile:
 
     def _load(self, at: Any, kind: Any, align: int = 0) -> Any:
         loaded = self.builder.load(self.builder.inttoptr(at, kind.as_pointer()))
-        loaded.align = align or self.width
+        loaded.align = align or self.size
         return loaded
 
     def _store(self, value: Any, at: Any) -> None:
         stored = self.builder.store(value, self.builder.inttoptr(at, value.type.as_pointer()))
-        stored.align = self.width
+        stored.align = self.size
 
     def _everywhere(self, number: Any) -> Any:
         """Return the vector whose every lane is this number."""
