@@ -132,7 +132,7 @@ class Cholesky:
         Fresh memory takes as long as the arithmetic, so that no more of it is taken than this.
         """
         shape = self.elimination
-        x, same = lines_for(*b.shape, b.dtype), shape.order[:0]
+        x, same = lines_for(len(b), b.shape[1], b.dtype), shape.order[:0]
         offsets = np.empty(shape.widest + shape.tallest, np.int64)
         enter_many(b, 0, b.shape[1], same, self.scale, x)
         solve_many(*self._panels, shape.order, x, offsets)

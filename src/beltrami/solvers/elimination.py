@@ -13,6 +13,7 @@ from beltrami._jit import kernel
 from beltrami.solvers.dissection import Dissection
 
 GROUP = 16  # rows of a front that are treated together
+_FEW = 48  # rows that are sorted by insertion
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,11 +128,23 @@ def _rows(
                     rows[end] = p
                     end += 1
             child = siblings[child]
-        ascending = np.sort(rows[row_starts[i] : end])
-        for t in range(ascending.size):
-            rows[row_starts[i] + t] = ascending[t]
+        _ascend(rows, row_starts[i], end)
         row_starts[i + 1] = end
     return row_starts, rows[: row_starts[blocks]].copy()
+
+
+@kernel
+def _ascend(rows: Any, low: int, high: int) -> None:
+    """Sort rows[low:high], which are few most times, in place."""
+    if high - low > _FEW:
+        rows[low:high] = np.sort(rows[low:high])
+        return
+    for t in range(np.uint64(low), np.uint64(high)):
+        row, k = rows[t], t
+        while k > np.uint64(low) and rows[k - np.uint64(1)] > row:
+            rows[k] = rows[k - np.uint64(1)]
+            k -= np.uint64(1)
+        rows[k] = row
 
 
 @kernel

@@ -17,9 +17,9 @@ from beltrami.solvers.many import forward
 from beltrami.solvers.tiles import BELOW, subtract
 
 NARROW = 12  # columns below which a triangle is factorised by loops
-SMALL = 48  # columns up to which a front is treated without BLAS
+SMALL = 96  # columns up to which a front is treated without BLAS
 WIDTH = 64  # columns of a larger one at a time
-ROOM = GROUP * (WIDTH + 1)  # numbers that are copied, and what is not needed
+ROOM = GROUP * (SMALL + 1)  # numbers that are copied, and what is not needed
 _MINUS, _ONE = 1, 0  # places of the scalars
 
 
@@ -202,7 +202,7 @@ def triangle(b: Any, panel: Any, columns: int, height: int) -> int:
                 panel[at + r] -= factor * panel[other + r]
         pivot = panel[at + j]
         if not pivot > 0:
-            return np.int64(j) + 1
+            return int(j) + 1
         root = np.sqrt(pivot)
         panel[at + j], inverse = root, 1 / root
         for r in range(j + np.uint64(1), end):
