@@ -140,7 +140,8 @@ def _ascend(rows: Any, low: int, high: int) -> None:
         rows[low:high] = np.sort(rows[low:high])
         return
     for t in range(np.uint64(low), np.uint64(high)):
-        row, k = rows[t], t
+        row = rows[t]
+        k: Any = t
         while k > np.uint64(low) and rows[k - np.uint64(1)] > row:
             rows[k] = rows[k - np.uint64(1)]
             k -= np.uint64(1)
