@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from beltrami.solvers.assembling import put_away
 from beltrami.solvers.blas import blas
 from beltrami.solvers.elimination import stride
-from beltrami.solvers.fronts import ROOM, SMALL, WIDTH, descend, put_away, triangle
+from beltrami.solvers.fronts import ROOM, SMALL, WIDTH, descend, triangle
 from beltrami.solvers.fronts import _factorize as factorize
 from beltrami.solvers.many import ONE, TWO
 

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from beltrami._jit import kernel
+from beltrami.solvers.assembling import assemble, put_away
 from beltrami.solvers.blas import N, T, divide_right, multiply
 from beltrami.solvers.elimination import stride
-from beltrami.solvers.fronts import assemble, put_away
 
 _ONE, _MINUS = 0, 1  # places of the scalars
 _WIDTH = 32  # columns that are factorised without BLAS
