@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import Integers, read_only
+from beltrami._arrays import Integers, read_only, unwritten
 from beltrami._jit import kernel, unsigned
 from beltrami.errors import MeshError
 from beltrami.mesh.numbering import BEHIND, number_edges
@@ -94,14 +94,15 @@ def _paired(corners: Any, n: int, room: int) -> HalfEdges | None:
     enough if no more edges have one side only.
     """
     m = len(corners)
-    sizes, cursors = np.zeros(n, np.uint32), np.empty((n, 2), np.uint32)
+    scratch = unwritten(3 * n, np.uint32)
+    sizes, cursors = scratch[:n], scratch[n:].reshape(n, 2)
     total = int(_count_sides(corners, sizes, cursors))
     room = min(room, total)
-    ends = np.empty(room + total + BEHIND, np.int64)
+    ends = unwritten(room + total + BEHIND, np.int64)
     words = unsigned(ends)
     sides = words[room:]
     _fill_buckets(corners, cursors, sides)
-    of_sides = np.empty((2, m, 3), np.int32)
+    of_sides = unwritten((2, m, 3), np.int32)
     complete = total == 3 * m
     if not complete:  # faces that name a vertex twice have no sides
         of_sides[0], of_sides[1] = -1, BOUNDARY
@@ -125,6 +126,7 @@ def _count_sides(faces: Any, sizes: Any, cursors: Any) -> Any:
     one = np.uint64(1)
     m = np.uint64(faces.shape[0])
     f = np.uint64(0)
+    sizes[:] = 0
     while f < m:
         i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
         if i != j and j != k and k != i:
