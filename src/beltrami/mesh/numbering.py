@@ -108,11 +108,17 @@ def _number_few(bucket: Any, sides: Any, ends: Any, face_edges: Any, twins: Any)
     size = end - begin
     if size > np.uint64(2 * LANES):
         return -1, 0, 0, 0
+    four = np.uint64(4)
+    at_edges, at_twins = np.uint64(face_edges.ctypes.data), np.uint64(twins.ctypes.data)
     address = np.uint64(sides.ctypes.data) + np.uint64(8) * begin
     inside, upwards = (one << size) - one, (one << (middle - begin)) - one
     firsts, bit = np.uint64(0), one  # the first side of each edge
-    q = begin
+    q, soon = begin, begin + np.uint64(AHEAD)
     while q < end:
+        later = four * (sides[soon] & code)
+        will_write(at_edges + later)
+        will_write(at_twins + later)
+        soon += one
         bound = sides[q] & ~code
         same = (_among(address, bound + code + one) ^ _among(address, bound)) & inside
         firsts |= bit * np.uint64(same & (bit - one) == np.uint64(0))
