@@ -123,6 +123,17 @@ def test_where_everything_is_smoothed_a_bound_is_no_excuse_not_to(monkeypatch):
     assert rms(mesh, data) < 0.9 * rms(mesh, plain)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_spikes_on_a_very_fine_grid_come_back(seed):
+    """Guesses go wild beside them, far beyond all numbers; what is coded is found all the same."""
+    mesh = bt.shapes.grid(20, 20)
+    rng = np.random.default_rng(seed)
+    x = np.column_stack([mesh.vertices, np.zeros(mesh.n_vertices)])
+    x[rng.integers(0, len(x), 9)] += rng.choice([-50, 50, 1000], (9, 1)) * np.array([1, 1, 0.0])
+    for mode in ("grid", "smooth"):
+        check(Mesh(x, mesh.faces), bits=30, mode=mode)
+
+
 def test_smooth_surfaces_cost_less_than_noise():
     mesh = bt.shapes.icosphere(4)
     noise = mesh.with_vertices(np.random.default_rng(1).uniform(-1, 1, mesh.vertices.shape))
