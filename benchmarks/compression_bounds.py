@@ -58,13 +58,16 @@ def measure_within(name: str, mesh: Any, error: str, mode: str, effort: str) -> 
     return Within(name, mesh.n_vertices, error, mode, effort, seconds, len(data), taken)
 
 
+def _measure(*asked: Any) -> dict[str, Any]:
+    return asdict(measure_within(*asked))
+
+
 def measure_all(name: str, mesh: Any, get: Callable[[str, Callable[[], Any]], Any]) -> list[Within]:
     """Measure every bound, effort and mode, or take what ``get`` keeps."""
     found = []
     for error, effort, mode in product(ERRORS, EFFORTS, MODES):
-        make = partial(measure_within, name, mesh, error, mode, effort)
-        kept = get(f"{name} within {error} {mode} {effort}", lambda make=make: asdict(make()))
-        found.append(Within(**kept))
+        make = partial(_measure, name, mesh, error, mode, effort)
+        found.append(Within(**get(f"{name} within {error} {mode} {effort}", make)))
     return found
 
 

@@ -86,7 +86,8 @@ def _likely_shortest(
     part = replace(whole, x=whole.x[sample], near=around)
     written, factor, choice = part.spectral(_FACTORS, _START)
     if _size(written) / len(sample) < least:
-        return whole.spectral((factor, _LARGER * factor), 0, choice, progress)[0]
+        larger = (_LARGER * factor,) if factor > _FACTORS[0] else ()
+        return whole.spectral((factor, *larger), 0, choice, progress)[0]
     return whole.on_grid(progress) if wins == "grid" else whole.smooth(progress)
 
 

@@ -52,11 +52,12 @@ def best_choice(
     Of those that leave no vertex farther off than ``most``; if there is none, 0.
     """
     losses, kept = [], []
+    patience = 1.3 if np.isinf(most) else 1.0  # with a bound the largest smoothings rarely serve
     for choice in range(len(WEIGHTS) + 1):
         squares = ((smoothed(numbers, near, choice) - x) ** 2).sum(axis=1)
         losses.append(float(squares.sum()))
         kept.append(squares.max(initial=0.0) <= most * most)
-        if losses[-1] > 1.3 * min(losses):
+        if losses[-1] > patience * min(losses):
             break
     return int(np.argmin(np.where(kept, losses, np.inf)))
 
