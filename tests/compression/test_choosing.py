@@ -5,11 +5,13 @@ import pytest
 
 import beltrami as bt
 from beltrami.compression import bounded, choosing
+from beltrami.compression.block_basis import BlockBasis
 from beltrami.compression.contents import describe
 from beltrami.compression.descent import downhill
 from beltrami.compression.neighbourhood import coding_order, look_around
 from beltrami.compression.numbers import surroundings
 from beltrami.compression.sampling import order_of_sample, part_of, sample_of
+from beltrami.compression.transform import analyse
 from beltrami.mesh.mesh import Mesh
 
 BLOB = bt.shapes.blob(6000)
@@ -131,3 +133,29 @@ def test_frugal_blocks_lose_little():
     few, all_of_them = bound.roundings[0].numbers, whole.roundings[0].numbers
     assert (few != all_of_them).any(axis=1).mean() < 0.01
     assert len(frugal.payload) < 1.02 * len(whole.written(0, 3)) + 400
+
+
+@pytest.mark.parametrize(
+    ("sizes", "mode"),
+    [((100, 200), "grid"), ((200, 100), "smooth"), ((2500, 2400), "spectral")],
+)
+def test_all_vertices_are_written_as_the_sample_is_shortest(monkeypatch, sizes, mode):
+    monkeypatch.setattr(bounded.Bounded, "size_on_grid", lambda self, order: sizes[0])
+    monkeypatch.setattr(bounded.Bounded, "size_smooth", lambda self, order: sizes[1])
+    error = 0.02 * np.ptp(BLOB.vertices)
+    data = bt.compress(BLOB, max_error=error, effort="fast", verify=False)
+    assert describe(data).mode == mode
+
+
+def test_more_vectors_are_made_until_those_behind_are_small():
+    """However few are expected, a rough block gets them all, and a smooth one few."""
+    mesh = bt.shapes.blob(500)
+    n = mesh.n_vertices
+    basis, vertices = BlockBasis(around(mesh)), np.arange(n)
+    rough = np.random.default_rng(0).normal(size=(n, 3))
+    U, c = analyse(rough, vertices, basis, 1e-3, n, 8)
+    assert len(c) > n - 4
+    np.testing.assert_allclose(U @ c, rough, atol=5e-3)
+    few, smooth = analyse(mesh.vertices, vertices, basis, 0.5, n, 8)
+    assert few.shape[1] < n / 4
+    np.testing.assert_array_equal(few, basis.vectors(vertices, len(smooth)))
