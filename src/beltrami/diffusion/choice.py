@@ -18,6 +18,7 @@ from beltrami.diffusion.candidates import (
     along_normals,
     filtered,
 )
+from beltrami.diffusion.colour import NoiseColour
 from beltrami.diffusion.linear_filters import IN_PARTS, LINEAR
 from beltrami.diffusion.patches import Sample
 from beltrami.diffusion.risk import best_mixture, mixture_risk
@@ -134,21 +135,18 @@ def choose(
     known: bool = True,
     plain: bool = False,
     strong: bool = False,
+    colour: NoiseColour | None = None,
 ) -> Choice:
     """Choose both mixtures for noise of the level σ along ``normals``, on a sample.
 
     If σ is not ``known``, a better one may be found; if ``plain``, linear filters alone, and no
-    second mixture. ``strong`` noise asks for more caution.
+    second mixture. ``strong`` noise asks for more caution. Noise of a ``colour`` is probed by noise
+    of the same: Stein's estimate with its covariance.
     """
     caution = _CAUTION_IF_STRONG if strong else _CAUTION
     mesh = sample.mesh
     bench = Bench.of(mesh)
-    n = mesh.n_vertices
-    random = np.random.default_rng(_SEED)
-    probes = [
-        _PROBE * sigma * random.choice([-1.0, 1.0], n)[:, None] * normals
-        for _ in range(min(_MOST_PROBES, math.ceil(_PROBED / n)))
-    ]
+    probes = [_PROBE * sigma * along[:, None] * normals for along in _directions(bench, colour)]
     others = [mesh.with_vertices(mesh.vertices + probe) for probe in probes]
     filters: tuple[Filter, ...] = LINEAR if plain else (*LINEAR, *IN_PARTS, *OF_NORMALS)
     here = filtered(mesh, bench, filters)
@@ -165,6 +163,18 @@ def choose(
     there = [_seconds(one, bench, _mixed(first, x)) for one, x in zip(others, there, strict=True)]
     second, risk = trial.mixture(here, there, sigma, 2, sure)
     return Choice(sigma, filters, first, second, risk)
+
+
+def _directions(bench: Bench, colour: NoiseColour | None) -> Floats:
+    """Return random changes along the normals, of the mean square 1 and of the colour."""
+    n = len(bench.normals)
+    random = np.random.default_rng(_SEED)
+    count = min(_MOST_PROBES, math.ceil(_PROBED / n))
+    white = np.stack([random.choice([-1.0, 1.0], n) for _ in range(count)])
+    if colour is None:
+        return white
+    noise = colour.noise(bench.rows, white.T).T
+    return np.asarray(noise / np.sqrt((noise**2).mean(axis=1, keepdims=True)))
 
 
 def _seconds(mesh: Mesh, bench: Bench, x: Floats) -> list[Floats]:

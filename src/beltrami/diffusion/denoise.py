@@ -20,6 +20,8 @@ from beltrami.diffusion.choice import (
     choose,
     named,
 )
+from beltrami.diffusion.colour import noise_colour, with_colour
+from beltrami.diffusion.linear_filters import equal_rows
 from beltrami.diffusion.noise import STRONG, NoiseLevel, noise_level
 from beltrami.diffusion.patches import components_of, part_of, sample_of
 from beltrami.diffusion.vertex_update import require_agreeing_normals
@@ -245,16 +247,24 @@ def _choice(
     """Measure the noise, and choose on a sample of about ``size`` faces; safely, if it is odd."""
     edge = float(mesh.edge_lengths.mean())
     found = noise_level(mesh.topology.adjacency, mesh.vertices, edge, bench.normals)
+    sample = sample_of(mesh, size)
+    normals = bench.normals[sample.vertices]
+    rows = equal_rows(sample.mesh)
+    colour = noise_colour(rows, sample.mesh.vertices, normals, sample.core)
+    coloured = mesh.n_vertices >= _SMALL and colour.is_coloured(edge)
+    if coloured:
+        found = with_colour(found, colour, rows)
     odd = bool(found.warnings)
     sigma = noise if noise is not None else found.spread if odd else found.sigma
     if sigma == 0:
         return found, Choice(0.0, (), np.zeros(0), np.zeros(0), 0.0)
-    sample = sample_of(mesh, size)
     plain = linear or odd or mesh.n_vertices < _SMALL
     known = noise is not None or odd
-    normals = bench.normals[sample.vertices]
     strong = found.relative > STRONG
-    return found, choose(sample, float(sigma), normals, known=known, plain=plain, strong=strong)
+    of = colour if coloured else None
+    return found, choose(
+        sample, float(sigma), normals, known=known, plain=plain, strong=strong, colour=of
+    )
 
 
 def _told(vertices: Integers, found: NoiseLevel, choice: Choice) -> DenoisedPart:
