@@ -148,7 +148,7 @@ def choose(
     bench = Bench.of(mesh)
     probes = [_PROBE * sigma * along[:, None] * normals for along in _directions(bench, colour)]
     others = [mesh.with_vertices(mesh.vertices + probe) for probe in probes]
-    filters: tuple[Filter, ...] = LINEAR if plain else (*LINEAR, *IN_PARTS, *OF_NORMALS)
+    filters: tuple[Filter, ...] = (*LINEAR, *IN_PARTS, *(() if plain else OF_NORMALS))
     here = filtered(mesh, bench, filters)
     there = [filtered(other, bench, filters) for other in others]
     trial = _Trial(mesh, sample.core, probes, (_PROBE * sigma) ** 2, caution)

@@ -22,12 +22,13 @@ _AREA = 12.0  # time of the heat that takes local means: radius of some 3.5 edge
 _QUIET, _ROUGH = 0.1, 0.9  # shares of the vertices where there is less
 _CLIP = 9.0  # variances beyond which squares do not count
 _HALF_SQUARE = 0.45493642311957283  # median of the square of a standard normal variable
-_EXCESSES = {_LOW: 0.3, _MIDDLE: 0.2}  # logarithms: see is_coloured
+_EXCESSES = {_LOW: 0.4, _MIDDLE: 0.3}  # logarithms: see is_coloured
 _UNEVEN = 1.5  # where there is shape all over
 _DIP = 0.8
 _PEAKED = 5.0  # kurtosis of what is not Gaussian
-_FAINT = 0.04  # mean edges, below which there is nothing to tell
+_FAINT = 0.12  # mean edges, below which it may be the texture of the shape
 _STEEPEST = 6.0
+_SHAPE = 1.5  # power of what is uneven that is shape
 _CHANCE = 0.1  # by which noise alone may be uneven
 _WHITE = 6  # columns of white noise to compare with
 _SEED = 7
@@ -58,15 +59,15 @@ class NoiseColour:
         What is left of a shape is stronger in the middle too, but not everywhere: the more uneven
         the band, the more it may have. A shape never makes a band weaker than the next.
         """
-        top, middle = self.levels[_TOP], self.levels[_MIDDLE]
-        if middle <= _FAINT * edge_length or self.kurtosis > _PEAKED:
+        top, least = self.levels[_TOP], _FAINT * edge_length
+        if self.kurtosis > _PEAKED:
             return False
-        for band, least in _EXCESSES.items():
+        for band, log in _EXCESSES.items():
             more = max(self.uneven[band] - 1, 0.0)
-            excess = math.exp(least + more + 2 * more**2)
-            if self.uneven[band] < _UNEVEN and self.levels[band] > excess * top:
+            excess = math.exp(log + more + 2 * more**2)
+            if self.uneven[band] < _UNEVEN and self.levels[band] > max(excess * top, least):
                 return True
-        return self.levels[_HIGH] < _DIP * top
+        return top > least / 2 and self.levels[_HIGH] < _DIP * top
 
     def amplitude(self, k: Floats) -> Floats:
         """Return the standard deviation at the frequencies k, between bands in a straight line.
@@ -74,7 +75,8 @@ class NoiseColour:
         What is uneven is taken for shape. Below the lowest band it grows as the power of 1 - k/2
         that fits the lowest two: that of white noise after rounds of averaging.
         """
-        levels = np.array(self.levels) / np.maximum(np.array(self.uneven) - _CHANCE, 1)
+        shape = np.maximum(np.array(self.uneven) - _CHANCE, 1) ** _SHAPE
+        levels = np.array(self.levels) / shape
         rest = 1 - np.array(_PEAKS[:2]) / 2
         power = np.log(levels[0] / levels[1]) / np.log(rest[0] / rest[1])
         power = min(max(float(power), 0.0), _STEEPEST)

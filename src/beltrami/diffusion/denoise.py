@@ -259,7 +259,7 @@ def _choice(
     if sigma == 0:
         return found, Choice(0.0, (), np.zeros(0), np.zeros(0), 0.0)
     plain = linear or odd or mesh.n_vertices < _SMALL
-    known = noise is not None or odd
+    known = noise is not None or (odd and not coloured)
     strong = found.relative > STRONG
     of = colour if coloured else None
     return found, choose(
