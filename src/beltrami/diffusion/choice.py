@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
@@ -31,11 +31,14 @@ _SEED = 20_110
 _SAME = 0.005  # relative change of a level from cut to cut, twice
 _MANY = 10_000  # vertices; of fewer, changes are larger by chance
 _NEAR = 0.15  # relative change of the level by that at most
-_CAUTION = 1.15  # of σ: see the notes of denoise
-_CAUTION_IF_STRONG = 1.7  # the normals, along which noise is looked for, are off themselves
+CAUTION = 1.15  # of σ: see the notes of denoise
+CAUTION_IF_STRONG = 1.7  # the normals, along which noise is looked for, are off themselves
+CAUTION_OF_OUTLIERS = 1.04  # what is the root mean square is not too small
 _SURE = 2.0  # standard deviations that are no chance
 _SURE_ON_SMOOTH = 4.0  # where there seems to be nothing that low passes cannot do
 _LEAST = 0.005  # weights below this are left out
+LOW_PASSES: tuple[Filter, ...] = (*LINEAR, *IN_PARTS)
+ALL = (*LOW_PASSES, *OF_NORMALS)
 AS_IT_IS, ALONG_NORMALS = "as it is", "along normals"  # the first mixture, seconded by itself
 
 
@@ -131,30 +134,32 @@ def choose(
     sample: Sample,
     sigma: float,
     normals: Floats,
+    filters: tuple[Filter, ...] = ALL,
     *,
     known: bool = True,
-    plain: bool = False,
-    strong: bool = False,
+    caution: float = CAUTION,
     colour: NoiseColour | None = None,
 ) -> Choice:
     """Choose both mixtures for noise of the level σ along ``normals``, on a sample.
 
-    If σ is not ``known``, a better one may be found; if ``plain``, linear filters alone, and no
-    second mixture. ``strong`` noise asks for more caution. Noise of a ``colour`` is probed by noise
-    of the same: Stein's estimate with its covariance.
+    Of ``filters``, the first ones are ``LINEAR``; there is no second mixture unless they are
+    ``ALL``. If σ is not ``known``, a better one may be found. Mixtures are chosen as if σ were
+    ``caution`` times as large. Noise of a ``colour`` is probed by noise of the same: Stein's
+    estimate with its covariance.
     """
-    caution = _CAUTION_IF_STRONG if strong else _CAUTION
+    plain = filters != ALL
     mesh = sample.mesh
     bench = Bench.of(mesh)
     probes = [_PROBE * sigma * along[:, None] * normals for along in _directions(bench, colour)]
     others = [mesh.with_vertices(mesh.vertices + probe) for probe in probes]
-    filters: tuple[Filter, ...] = (*LINEAR, *IN_PARTS, *(() if plain else OF_NORMALS))
     here = filtered(mesh, bench, filters)
     there = [filtered(other, bench, filters) for other in others]
     trial = _Trial(mesh, sample.core, probes, (_PROBE * sigma) ** 2, caution)
     k = sum(not one.by_length for one in LINEAR)
     level = trial.level(here[1:k], [moved[1:k] for moved in there], sigma)
-    sure = _SURE if level is None else _SURE_ON_SMOOTH
+    sure = _SURE if level is None else math.inf if plain else _SURE_ON_SMOOTH
+    if level is not None:  # what is left of the noise is all there is of the error
+        trial = replace(trial, caution=max(caution, CAUTION))
     sigma = sigma if known or level is None else level
     first, risk = trial.mixture(here, there, sigma, len(LINEAR), sure)
     if plain:

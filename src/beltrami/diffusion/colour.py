@@ -121,7 +121,8 @@ def noise_colour(rows: LocalRows, x: Floats, normals: Floats, core: Booleans) ->
         levels.append(float(quiet / white_quiet) if white_quiet > 0 else 0.0)
         if i == _MIDDLE:
             squares = (found**2 / gain)[core]
-            kurtosis = float((squares**2).mean() / squares.mean() ** 2)
+            mean = float(squares.mean())
+            kurtosis = float(np.mean((squares / mean) ** 2)) if mean > 0 else 3.0
         spread = quiet * white_rough
         uneven.append(float(rough * white_quiet / spread) if spread > 0 else np.inf)
     return NoiseColour(tuple(levels), tuple(uneven), kurtosis)

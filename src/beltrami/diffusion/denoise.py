@@ -7,23 +7,28 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from beltrami._arrays import Integers
+from beltrami._arrays import Floats, Integers
 from beltrami._carded import Carded
 from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.diffusion.candidates import SECOND, Bench
 from beltrami.diffusion.choice import (
+    ALL,
     ALONG_NORMALS,
     AS_IT_IS,
+    CAUTION,
+    CAUTION_IF_STRONG,
+    CAUTION_OF_OUTLIERS,
+    LOW_PASSES,
     Choice,
     apply,
     choose,
     named,
 )
-from beltrami.diffusion.colour import noise_colour, with_colour
-from beltrami.diffusion.linear_filters import equal_rows
+from beltrami.diffusion.colour import NoiseColour, noise_colour, with_colour
+from beltrami.diffusion.linear_filters import LINEAR, equal_rows
 from beltrami.diffusion.noise import STRONG, NoiseLevel, noise_level
-from beltrami.diffusion.patches import components_of, part_of, sample_of
+from beltrami.diffusion.patches import Sample, components_of, part_of, sample_of
 from beltrami.diffusion.vertex_update import require_agreeing_normals
 from beltrami.errors import BeltramiError, check_name
 from beltrami.mesh.door import require_mesh
@@ -84,7 +89,7 @@ class Denoised(Carded):
     volume_change
         Relative; NaN if the mesh has a boundary, or no volume.
     warnings
-        Why the result may be worse than predicted; only linear filters were used there.
+        Why the result may be worse than predicted; only low passes were used there.
     """
 
     mesh: Mesh
@@ -167,8 +172,9 @@ def denoise(
     Returns
     -------
     Denoised: the mesh first. If the noise does not look white and Gaussian, or is very strong, it
-    says so in ``warnings``, and only linear filters are used: the estimate of their error needs no
-    Gaussian. Then the level is the root mean square, outliers included.
+    says so in ``warnings``, and only low passes are used, whose estimate of the error needs no
+    Gaussian. Then the level is the root mean square, outliers included; of noise that is not white
+    (``noise_colour``) it is that of all frequencies, and the estimate has its covariance.
 
     Raises
     ------
@@ -187,7 +193,8 @@ def denoise(
     so the same mesh gives the same result. The mixtures are chosen as if σ were 15 % larger: to
     take some shape for noise costs little, but what is left of the noise spoils the normals; and
     the chosen mixture fits the noise it was chosen on. Where the noise is very strong it is 70 %,
-    because the normals, along which it is looked for, are off. The ``predicted_error`` is for σ as
+    because the normals, along which it is looked for, are off; of a root mean square with outliers
+    4 %, unless the shape is smooth. The ``predicted_error`` is for σ as
     it is, and at least σ times the divergence for each vertex, the least that a linear filter
     leaves.
     Filters of normals, and the second mixture, are left out where what they gain may be chance.
@@ -249,22 +256,29 @@ def _choice(
     found = noise_level(mesh.topology.adjacency, mesh.vertices, edge, bench.normals)
     sample = sample_of(mesh, size)
     normals = bench.normals[sample.vertices]
-    rows = equal_rows(sample.mesh)
-    colour = noise_colour(rows, sample.mesh.vertices, normals, sample.core)
-    coloured = mesh.n_vertices >= _SMALL and colour.is_coloured(edge)
-    if coloured:
-        found = with_colour(found, colour, rows)
+    colour = _colour(sample, normals, edge)
+    if colour is not None:
+        found = with_colour(found, colour, equal_rows(sample.mesh))
     odd = bool(found.warnings)
     sigma = noise if noise is not None else found.spread if odd else found.sigma
     if sigma == 0:
         return found, Choice(0.0, (), np.zeros(0), np.zeros(0), 0.0)
-    plain = linear or odd or mesh.n_vertices < _SMALL
-    known = noise is not None or (odd and not coloured)
-    strong = found.relative > STRONG
-    of = colour if coloured else None
+    few = linear or mesh.n_vertices < _SMALL
+    filters = LINEAR if few else LOW_PASSES if odd else ALL
+    known = noise is not None or (odd and colour is None)
+    rest = CAUTION_OF_OUTLIERS if odd and known and noise is None else CAUTION
+    caution = CAUTION_IF_STRONG if found.relative > STRONG else rest
     return found, choose(
-        sample, float(sigma), normals, known=known, plain=plain, strong=strong, colour=of
+        sample, float(sigma), normals, filters, known=known, caution=caution, colour=colour
     )
+
+
+def _colour(sample: Sample, normals: Floats, edge: float) -> NoiseColour | None:
+    """Return the colour of the noise, if it has one."""
+    if sample.mesh.n_vertices < _SMALL:
+        return None
+    found = noise_colour(equal_rows(sample.mesh), sample.mesh.vertices, normals, sample.core)
+    return found if found.is_coloured(edge) else None
 
 
 def _told(vertices: Integers, found: NoiseLevel, choice: Choice) -> DenoisedPart:
