@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
@@ -31,9 +31,9 @@ _SEED = 20_110
 _SAME = 0.005  # relative change of a level from cut to cut, twice
 _MANY = 10_000  # vertices; of fewer, changes are larger by chance
 _NEAR = 0.15  # relative change of the level by that at most
+_NEAR_IF_COLOURED = 0.4  # where lower frequencies are guessed
 CAUTION = 1.15  # of σ: see the notes of denoise
 CAUTION_IF_STRONG = 1.7  # the normals, along which noise is looked for, are off themselves
-CAUTION_OF_OUTLIERS = 1.04  # what is the root mean square is not too small
 _SURE = 2.0  # standard deviations that are no chance
 _SURE_ON_SMOOTH = 4.0  # where there seems to be nothing that low passes cannot do
 _LEAST = 0.005  # weights below this are left out
@@ -100,10 +100,12 @@ class _Trial:
         # the noise that is left is at least what a filter of this divergence must leave
         return weights, max(risk, (sigma * float(weights @ divergence)) ** 2)
 
-    def level(self, here: list[Floats], there: list[list[Floats]], sigma: float) -> float | None:
+    def level(
+        self, here: list[Floats], there: list[list[Floats]], sigma: float, near: float
+    ) -> float | None:
         """Return the level of what low passes remove, if it is the same for a range of cuts.
 
-        The most even place of the longest such range counts; None, if there is none near σ.
+        The most even place of the longest such range counts; None, if there is none ``near`` σ.
 
         What a low pass H removes is (Id - H) of the noise, and of the shape: that the level of
         this noise does not change from cut to cut says that nothing is removed of the shape, and
@@ -121,7 +123,7 @@ class _Trial:
         levels = np.sqrt(np.array(removed) / shares)
         change = np.abs(np.diff(np.log(levels)))
         worst = np.maximum(change[1:], change[:-1])
-        worst[np.abs(np.log(levels[1:-1] / sigma)) > _NEAR] = np.inf
+        worst[np.abs(np.log(levels[1:-1] / sigma)) > near] = np.inf
         alike = worst < _SAME * max(1.0, math.sqrt(_MANY / core.sum()))
         ends = np.flatnonzero(np.diff(np.concatenate([[False], alike, [False]])))
         if not len(ends):
@@ -156,10 +158,9 @@ def choose(
     there = [filtered(other, bench, filters) for other in others]
     trial = _Trial(mesh, sample.core, probes, (_PROBE * sigma) ** 2, caution)
     k = sum(not one.by_length for one in LINEAR)
-    level = trial.level(here[1:k], [moved[1:k] for moved in there], sigma)
+    near = _NEAR if colour is None else _NEAR_IF_COLOURED
+    level = trial.level(here[1:k], [moved[1:k] for moved in there], sigma, near)
     sure = _SURE if level is None else math.inf if plain else _SURE_ON_SMOOTH
-    if level is not None:  # what is left of the noise is all there is of the error
-        trial = replace(trial, caution=max(caution, CAUTION))
     sigma = sigma if known or level is None else level
     first, risk = trial.mixture(here, there, sigma, len(LINEAR), sure)
     if plain:

@@ -22,14 +22,14 @@ _AREA = 12.0  # time of the heat that takes local means: radius of some 3.5 edge
 _QUIET, _ROUGH = 0.1, 0.9  # shares of the vertices where there is less
 _CLIP = 9.0  # variances beyond which squares do not count
 _HALF_SQUARE = 0.45493642311957283  # median of the square of a standard normal variable
-_EXCESSES = {_LOW: 0.4, _MIDDLE: 0.3}  # logarithms: see is_coloured
+_EXCESSES = {_LOW: 0.55, _MIDDLE: 0.35}  # logarithms: see is_coloured
 _UNEVEN = 1.5  # where there is shape all over
 _DIP = 0.8
 _PEAKED = 5.0  # kurtosis of what is not Gaussian
 _FAINT = 0.12  # mean edges, below which it may be the texture of the shape
-_STEEPEST = 6.0
+_FLATTEST, _STEEPEST = 1.0, 6.0  # powers of 1 - k/2
 _SHAPE = 1.5  # power of what is uneven that is shape
-_CHANCE = 0.1  # by which noise alone may be uneven
+_CHANCE = 0.12  # by which noise alone may be uneven
 _WHITE = 6  # columns of white noise to compare with
 _SEED = 7
 _DEGREE = 40
@@ -47,6 +47,8 @@ class NoiseColour:
     uneven
         How much stronger the band is where there is much of it than where there is little, over
         what white noise has there: 1 where there is noise alone, more where there is shape.
+    kurtosis
+        Of the second band; 3 if the noise is Gaussian, larger if it has spikes.
     """
 
     levels: tuple[float, ...]
@@ -60,7 +62,7 @@ class NoiseColour:
         the band, the more it may have. A shape never makes a band weaker than the next.
         """
         top, least = self.levels[_TOP], _FAINT * edge_length
-        if self.kurtosis > _PEAKED:
+        if self.kurtosis > _PEAKED or not min(self.levels) > 0:
             return False
         for band, log in _EXCESSES.items():
             more = max(self.uneven[band] - 1, 0.0)
@@ -75,11 +77,12 @@ class NoiseColour:
         What is uneven is taken for shape. Below the lowest band it grows as the power of 1 - k/2
         that fits the lowest two: that of white noise after rounds of averaging.
         """
-        shape = np.maximum(np.array(self.uneven) - _CHANCE, 1) ** _SHAPE
-        levels = np.array(self.levels) / shape
+        uneven = np.array(self.uneven)
+        of_noise = np.sqrt(np.clip(uneven, 1, 1 + _CHANCE))  # from a quiet place to the middle
+        levels = of_noise * np.array(self.levels) / np.maximum(uneven - _CHANCE, 1) ** _SHAPE
         rest = 1 - np.array(_PEAKS[:2]) / 2
         power = np.log(levels[0] / levels[1]) / np.log(rest[0] / rest[1])
-        power = min(max(float(power), 0.0), _STEEPEST)
+        power = min(max(float(power), _FLATTEST), _STEEPEST)
         below = levels[0] * ((1 - np.minimum(k, _PEAKS[0]) / 2) / rest[0]) ** power
         return np.asarray(np.where(k < _PEAKS[0], below, np.interp(k, _PEAKS, levels)))
 

@@ -18,7 +18,6 @@ from beltrami.diffusion.choice import (
     AS_IT_IS,
     CAUTION,
     CAUTION_IF_STRONG,
-    CAUTION_OF_OUTLIERS,
     LOW_PASSES,
     Choice,
     apply,
@@ -40,6 +39,7 @@ _LEAST_SAMPLE = 8_000  # of one part
 _PARTS = 8  # at most, with a choice of their own
 _OWN = 1_000  # vertices of a component below which it has no choice of its own
 _NO_VOLUME = 1e-12  # of the power 3/2 of the area
+_ENOUGH = 1_500  # vertices, from which noise may be told from creases that are everywhere
 _SMALL = 200  # vertices below which only linear filters are trusted
 
 
@@ -193,8 +193,7 @@ def denoise(
     so the same mesh gives the same result. The mixtures are chosen as if σ were 15 % larger: to
     take some shape for noise costs little, but what is left of the noise spoils the normals; and
     the chosen mixture fits the noise it was chosen on. Where the noise is very strong it is 70 %,
-    because the normals, along which it is looked for, are off; of a root mean square with outliers
-    4 %, unless the shape is smooth. The ``predicted_error`` is for σ as
+    because the normals, along which it is looked for, are off. The ``predicted_error`` is for σ as
     it is, and at least σ times the divergence for each vertex, the least that a linear filter
     leaves.
     Filters of normals, and the second mixture, are left out where what they gain may be chance.
@@ -266,8 +265,7 @@ def _choice(
     few = linear or mesh.n_vertices < _SMALL
     filters = LINEAR if few else LOW_PASSES if odd else ALL
     known = noise is not None or (odd and colour is None)
-    rest = CAUTION_OF_OUTLIERS if odd and known and noise is None else CAUTION
-    caution = CAUTION_IF_STRONG if found.relative > STRONG else rest
+    caution = CAUTION_IF_STRONG if found.relative > STRONG else CAUTION
     return found, choose(
         sample, float(sigma), normals, filters, known=known, caution=caution, colour=colour
     )
@@ -275,7 +273,7 @@ def _choice(
 
 def _colour(sample: Sample, normals: Floats, edge: float) -> NoiseColour | None:
     """Return the colour of the noise, if it has one."""
-    if sample.mesh.n_vertices < _SMALL:
+    if sample.mesh.n_vertices < _ENOUGH:
         return None
     found = noise_colour(equal_rows(sample.mesh), sample.mesh.vertices, normals, sample.core)
     return found if found.is_coloured(edge) else None
