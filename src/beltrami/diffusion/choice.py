@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
 
 from beltrami._arrays import Booleans, Floats
 from beltrami.diffusion.candidates import (
+    EVENING,
     OF_NORMALS,
     SECOND,
     Bench,
@@ -19,7 +20,7 @@ from beltrami.diffusion.candidates import (
     filtered,
 )
 from beltrami.diffusion.colour import NoiseColour
-from beltrami.diffusion.linear_filters import IN_PARTS, LINEAR
+from beltrami.diffusion.linear_filters import IN_PARTS, LINEAR, Linear
 from beltrami.diffusion.patches import Sample
 from beltrami.diffusion.risk import best_mixture, mixture_risk
 from beltrami.mesh.mesh import Mesh
@@ -33,7 +34,7 @@ _MANY = 10_000  # vertices; of fewer, changes are larger by chance
 _NEAR = 0.15  # relative change of the level by that at most
 _NEAR_IF_COLOURED = 0.4  # where lower frequencies are guessed
 CAUTION = 1.15  # of σ: see the notes of denoise
-CAUTION_IF_STRONG = 1.7  # the normals, along which noise is looked for, are off themselves
+CAUTION_IF_STRONG = 1.05  # found with EVENING_IF_STRONG
 _SURE = 2.0  # standard deviations that are no chance
 _SURE_ON_SMOOTH = 4.0  # where there seems to be nothing that low passes cannot do
 _LEAST = 0.005  # weights below this are left out
@@ -140,18 +141,19 @@ def choose(
     *,
     known: bool = True,
     caution: float = CAUTION,
+    evening: Linear = EVENING,
     colour: NoiseColour | None = None,
 ) -> Choice:
     """Choose both mixtures for noise of the level σ along ``normals``, on a sample.
 
     Of ``filters``, the first ones are ``LINEAR``; there is no second mixture unless they are
     ``ALL``. If σ is not ``known``, a better one may be found. Mixtures are chosen as if σ were
-    ``caution`` times as large. Noise of a ``colour`` is probed by noise of the same: Stein's
-    estimate with its covariance.
+    ``caution`` times as large; normals are those after ``evening``. Noise of a ``colour`` is probed
+    by noise of the same: Stein's estimate with its covariance.
     """
     plain = filters != ALL
     mesh = sample.mesh
-    bench = Bench.of(mesh)
+    bench = Bench.of(mesh, evening)
     probes = [_PROBE * sigma * along[:, None] * normals for along in _directions(bench, colour)]
     others = [mesh.with_vertices(mesh.vertices + probe) for probe in probes]
     here = filtered(mesh, bench, filters)
@@ -161,6 +163,8 @@ def choose(
     near = _NEAR if colour is None else _NEAR_IF_COLOURED
     level = trial.level(here[1:k], [moved[1:k] for moved in there], sigma, near)
     sure = _SURE if level is None else math.inf if plain else _SURE_ON_SMOOTH
+    if level is not None:  # what is left of the noise is all there is of the error
+        trial = replace(trial, caution=max(caution, CAUTION))
     sigma = sigma if known or level is None else level
     first, risk = trial.mixture(here, there, sigma, len(LINEAR), sure)
     if plain:

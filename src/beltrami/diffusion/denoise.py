@@ -11,7 +11,7 @@ from beltrami._arrays import Floats, Integers
 from beltrami._carded import Carded
 from beltrami._kinds import checked
 from beltrami._progress import Progress
-from beltrami.diffusion.candidates import SECOND, Bench
+from beltrami.diffusion.candidates import EVENING_IF_STRONG, SECOND, Bench
 from beltrami.diffusion.choice import (
     ALL,
     ALONG_NORMALS,
@@ -192,10 +192,10 @@ def denoise(
     one or two small random changes of the input, from a fixed seed (Ramani, Blu and Unser 2008),
     so the same mesh gives the same result. The mixtures are chosen as if σ were 15 % larger: to
     take some shape for noise costs little, but what is left of the noise spoils the normals; and
-    the chosen mixture fits the noise it was chosen on. Where the noise is very strong it is 70 %,
-    because the normals, along which it is looked for, are off. The ``predicted_error`` is for σ as
-    it is, and at least σ times the divergence for each vertex, the least that a linear filter
-    leaves.
+    the chosen mixture fits the noise it was chosen on. Where the noise is very strong and the shape
+    has details it is 5 %, and the normals, along which the noise is looked for, are those of a mesh
+    that is evened more. The ``predicted_error`` is for σ as it is, and at least σ times the
+    divergence for each vertex, the least that a linear filter leaves.
     Filters of normals, and the second mixture, are left out where what they gain may be chance.
 
     Components of at least 1000 vertices, the eight largest, have a noise level and mixtures of
@@ -228,8 +228,7 @@ def denoise(
     for i, vertices in enumerate(components):
         part = mesh if len(components) == 1 else part_of(mesh, vertices)
         if part.n_faces:
-            bench = Bench.of(part)
-            found, choice = _choice(part, bench, noise, method == "linear", size)
+            found, choice, bench = _choice(part, noise, method == "linear", size)
             if progress is not None:
                 progress(2 * i + 1, 2 * len(components))
             moved[vertices] = apply(part, bench, choice)
@@ -248,11 +247,15 @@ def _volume_change(before: Mesh, after: Mesh) -> float:
 
 
 def _choice(
-    mesh: Mesh, bench: Bench, noise: float | None, linear: bool, size: int
-) -> tuple[NoiseLevel, Choice]:
+    mesh: Mesh, noise: float | None, linear: bool, size: int
+) -> tuple[NoiseLevel, Choice, Bench]:
     """Measure the noise, and choose on a sample of about ``size`` faces; safely, if it is odd."""
     edge = float(mesh.edge_lengths.mean())
+    caution, bench = CAUTION, Bench.of(mesh)
     found = noise_level(mesh.topology.adjacency, mesh.vertices, edge, bench.normals)
+    if found.relative > STRONG:
+        caution, bench = CAUTION_IF_STRONG, Bench.of(mesh, EVENING_IF_STRONG)
+        found = noise_level(mesh.topology.adjacency, mesh.vertices, edge, bench.normals)
     sample = sample_of(mesh, size)
     normals = bench.normals[sample.vertices]
     colour = _colour(sample, normals, edge)
@@ -261,14 +264,20 @@ def _choice(
     odd = bool(found.warnings)
     sigma = noise if noise is not None else found.spread if odd else found.sigma
     if sigma == 0:
-        return found, Choice(0.0, (), np.zeros(0), np.zeros(0), 0.0)
+        return found, Choice(0.0, (), np.zeros(0), np.zeros(0), 0.0), bench
     few = linear or mesh.n_vertices < _SMALL
     filters = LINEAR if few else LOW_PASSES if odd else ALL
-    known = noise is not None or (odd and colour is None)
-    caution = CAUTION_IF_STRONG if found.relative > STRONG else CAUTION
-    return found, choose(
-        sample, float(sigma), normals, filters, known=known, caution=caution, colour=colour
+    choice = choose(
+        sample,
+        float(sigma),
+        normals,
+        filters,
+        known=noise is not None or (odd and colour is None),
+        caution=caution,
+        evening=bench.evening,
+        colour=colour,
     )
+    return found, choice, bench
 
 
 def _colour(sample: Sample, normals: Floats, edge: float) -> NoiseColour | None:
