@@ -209,9 +209,10 @@ def apply(mesh: Mesh, bench: Bench, choice: Choice) -> Floats:
 
 
 def _mixed(weights: Floats, positions: list[Floats]) -> Floats:
-    total = np.zeros_like(positions[0])
-    for weight, x in zip(weights, positions, strict=True):
-        total += weight * x
+    """Return Σ w x for weights that add to 1; what all leave in its place stays there exactly."""
+    total = positions[0].copy()
+    for weight, x in zip(weights[1:], positions[1:], strict=True):
+        total += weight * (x - positions[0])
     return total
 
 
