@@ -369,7 +369,6 @@ class TestNoiseOfOtherKinds:
         assert rms(found.mesh, truth) < 1.2 * best
 
     def test_strong_noise_on_a_sphere_leaves_less_than_the_best_linear_filter(self):
-        """With the caution for details, a tenth more is left."""
         truth = shapes.icosphere(5)
         mesh, _ = noisy(truth, 0.7)
         bench = Bench.of(mesh)
