@@ -40,10 +40,12 @@ def disk_map(
     From 5,000 vertices on, the map of a mesh with a quarter of them comes first, and of that in
     the same way; the vertices that it lacks are inserted without a fold, and the map is relaxed.
     Iterations are cheap there, where the way is long. Weights that are no name of weights may not
-    be for another mesh: there, and where an insertion folds, the mesh is mapped as it is.
+    be for another mesh: there, and where an insertion folds, the mesh is mapped as it is. So it is
+    with a free boundary, which comes to rest elsewhere if it is that of a coarser mesh first.
     """
-    if mesh.n_vertices >= _LARGE and all(isinstance(kind, str) for kind in weights):
-        step = _from_coarser(mesh, weights, loop, placed, free, settled)
+    named = all(isinstance(kind, str) for kind in weights)
+    if named and not free and mesh.n_vertices >= _LARGE:
+        step = _from_coarser(mesh, weights, loop, placed, settled)
         if step is not None:
             return step
     steps: list[Step] = []
@@ -66,7 +68,6 @@ def _from_coarser(
     weights: tuple[str | Weigher, ...],
     loop: Integers,
     placed: Floats,
-    free: bool,
     settled: float,
 ) -> Step | None:
     """Map a coarser mesh, then this one from there; None if that is not possible."""
@@ -75,7 +76,7 @@ def _from_coarser(
         return None
     number = np.searchsorted(coarse.kept, loop)
     coarsely = max(settled, _COARSELY)
-    found = disk_map(coarse.mesh, weights, number, placed, free=free, settled=coarsely)
+    found = disk_map(coarse.mesh, weights, number, placed, free=False, settled=coarsely)
     if found.flips:
         return None
     scale = best_scale(isometric_energy(coarse.mesh).sums(found.uv))
@@ -83,5 +84,5 @@ def _from_coarser(
     uv = stars(mesh).swept(uv, scale, _SWEEPS)
     if assess(mesh, uv).flips:
         return None
-    step = _relaxed(mesh, uv, free, settled)
+    step = _relaxed(mesh, uv, False, settled)
     return None if step.flips else step

@@ -108,13 +108,14 @@ def _sweep(
 @kernel
 def at_rest(x: Any, v: int, a: int, b: int, rest: Any) -> None:
     """Write the length of a side on the surface, and where v stands over it: along, and height."""
-    aa = ap = pp = 0.0
+    aa = ap = hh = 0.0
     for c in range(x.shape[1]):
         side, p = x[b, c] - x[a, c], x[v, c] - x[a, c]
-        aa, ap, pp = aa + side * side, ap + side * p, pp + p * p
-    rest[0] = np.sqrt(aa)
-    rest[1] = ap / rest[0]
-    rest[2] = np.sqrt(max(pp - rest[1] ** 2, 0.0))
+        aa, ap = aa + side * side, ap + side * p
+    share = ap / aa if aa > 0 else 0.0
+    for c in range(x.shape[1]):
+        hh += (x[v, c] - x[a, c] - share * (x[b, c] - x[a, c])) ** 2
+    rest[0], rest[1], rest[2] = np.sqrt(aa), share * np.sqrt(aa), np.sqrt(hh)
 
 
 @kernel
@@ -127,6 +128,8 @@ def best_place(sides: Any, rest: Any, k: int, px: float, py: float, steps: int) 
         lift = max(0.0, _LIFT * (abs(a) + abs(c)) - (a + c) / 2 + np.hypot((a - c) / 2, b))
         a, c = a + lift, c + lift
         determinant = a * c - b * b
+        if not determinant > 0:
+            break
         dx, dy = (b * gy - c * gx) / determinant, (b * gx - a * gy) / determinant
         slope = gx * dx + gy * dy
         step, start = 1.0, here
@@ -155,6 +158,8 @@ def star_energy(sides: Any, rest: Any, k: int, px: float, py: float) -> Any:
     total = gx = gy = hxx = hxy = hyy = 0.0
     for q in range(k):
         length, along, height = rest[q, 0], rest[q, 1], rest[q, 2]
+        if not length * height > 0:
+            return np.inf, 0.0, 0.0, 1.0, 0.0, 1.0
         ux, uy = (sides[q, 2] - sides[q, 0]) / length, (sides[q, 3] - sides[q, 1]) / length
         wx, wy = px - sides[q, 0], py - sides[q, 1]
         D = (ux * wy - uy * wx) / height
@@ -163,7 +168,7 @@ def star_energy(sides: Any, rest: Any, k: int, px: float, py: float) -> Any:
         rx, ry = (wx - along * ux) / height, (wy - along * uy) / height
         Q, area = ux * ux + uy * uy + rx * rx + ry * ry, length * height / 2
         qx, qy, dx, dy = 2 * rx / height, 2 * ry / height, -uy / height, ux / height
-        inverse = 1 / (D * D)
+        inverse = 1 / D / D
         first, second, mixed = 2 * Q * inverse / D, 6 * Q * inverse * inverse, 2 * inverse / D
         bend = 2 * (1 + inverse) / (height * height)
         total += area * Q * (1 + inverse)

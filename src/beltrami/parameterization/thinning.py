@@ -50,10 +50,11 @@ def thinned(mesh: Mesh, count: int) -> Thinned:
     """Take away inner vertices until about so many are left, or none can go.
 
     A vertex goes into a neighbour, along an edge whose ends have two common neighbours: what was
-    a disk remains one, with the same boundary. Of its neighbours it is the one with the best shape
-    of the new faces, and none where these were slivers or of another area, as on the tip of a
-    spike. In a pass no two neighbours go, so that the mesh thins out evenly. Around a short
-    boundary, where maps are worst, none goes at all. Cost: O(n).
+    a disk remains one, with the same boundary, and no more edges across from it to itself. Of its
+    neighbours it is the one with the best shape of the new faces, and none where these were
+    slivers or of another area, as on the tip of a spike. In a pass no two neighbours go, so that
+    the mesh thins out evenly. Around a short boundary, where maps are worst, none goes at all.
+    Cost: O(n).
     """
     faces = np.array(mesh.faces)
     n = mesh.n_vertices
@@ -62,8 +63,9 @@ def thinned(mesh: Mesh, count: int) -> Thinned:
     rings = np.empty(_WIDEST * n, np.int32)
     alive = np.ones(len(faces), np.bool_)
     gone = _thin(
-        well_scaled(mesh.vertices)[0], faces, fixed, n - count, alive, removed, starts, rings
-    )
+        well_scaled(mesh.vertices)[0], faces, mesh.topology.on_boundary, fixed, n - count, alive,
+        removed, starts, rings,
+    )  # fmt: skip
     kept = np.ones(n, np.bool_)
     kept[removed[:gone]] = False
     number = np.cumsum(kept) - 1
@@ -86,8 +88,9 @@ def _near_boundary(mesh: Mesh, most: float) -> Booleans:
 
 @kernel
 def _thin(
-    x: Any, faces: Any, fixed: Any, most: int, alive: Any, removed: Any, starts: Any, rings: Any
-) -> int:
+    x: Any, faces: Any, rim: Any, fixed: Any, most: int, alive: Any, removed: Any, starts: Any,
+    rings: Any,
+) -> int:  # fmt: skip
     """Write the vertices that go, and their rings; return how many. Faces are changed."""
     n = fixed.size
     first, after = corner_lists(faces, n)
@@ -104,7 +107,7 @@ def _thin(
             k = _ring(v, faces, first, after, ring)
             if k < 3:
                 continue
-            w = _target(x, v, ring, k, faces, first, after, seen)
+            w = _target(x, v, ring, k, rim, faces, first, after, seen)
             if w < 0:
                 continue
             for q in range(k):
@@ -146,7 +149,7 @@ def _ring(v: int, faces: Any, first: Any, after: Any, ring: Any) -> int:
 
 @kernel
 def _target(
-    x: Any, v: int, ring: Any, k: int, faces: Any, first: Any, after: Any, seen: Any
+    x: Any, v: int, ring: Any, k: int, rim: Any, faces: Any, first: Any, after: Any, seen: Any
 ) -> int:
     """Return the neighbour that a vertex goes into, or -1."""
     around = 0.0
@@ -158,9 +161,11 @@ def _target(
         worst, total = 1.0, 0.0
         for q in range(1, k - 1):
             a, b = ring[(s + q) % k], ring[(s + q + 1) % k]
-            area = _area(x, w, a, b)
+            area, squares = _area(x, w, a, b), _squares(x, w, a, b)
             total += area
-            worst = min(worst, _EQUILATERAL * area / _squares(x, w, a, b))
+            worst = min(worst, _EQUILATERAL * area / squares) if squares > 0 else 0.0
+            if rim[w] and rim[a] and q > 1:
+                worst = 0.0
         if not worst > best or not abs(total - around) <= _CHANGE * around:
             continue
         if _common(w, v, ring, k, faces, first, after, seen) == 2:
