@@ -23,7 +23,7 @@ _LARGE = 5000  # vertices from which a coarser mesh comes first
 _COARSER = 4  # times fewer vertices
 _HARDLY = 1.5  # likewise: if no more can go, it does not pay
 _SWEEPS = 4  # over a map that is made of a coarser one
-_COARSELY = 3e-3  # decrease in a step at which the relaxation of a coarser mesh stops
+_PAYS = 4e-3  # decrease in a step that is worth it, where a coarser map has gone most of the way
 
 
 def disk_map(
@@ -75,8 +75,7 @@ def _from_coarser(
     if _HARDLY * coarse.mesh.n_vertices > mesh.n_vertices:
         return None
     number = np.searchsorted(coarse.kept, loop)
-    coarsely = max(settled, _COARSELY)
-    found = disk_map(coarse.mesh, weights, number, placed, free=False, settled=coarsely)
+    found = disk_map(coarse.mesh, weights, number, placed, free=False, settled=settled)
     if found.flips:
         return None
     scale = best_scale(isometric_energy(coarse.mesh).sums(found.uv))
@@ -84,5 +83,5 @@ def _from_coarser(
     uv = stars(mesh).swept(uv, scale, _SWEEPS)
     if assess(mesh, uv).flips:
         return None
-    step = _relaxed(mesh, uv, False, settled)
+    step = _relaxed(mesh, uv, False, max(settled, _PAYS))
     return None if step.flips else step
