@@ -37,11 +37,12 @@ test-browser: $(VENV)/.browser  ## the pages in a real Chromium, and their modul
 test-firefox: $(VENV)/.browser  ## the pages in a real Firefox, on a screen of Xvfb
 	$(BIN)/python -m pytest -m firefox
 
-test-neighbours:  ## cards in IPython, meshes there and back through pyvista, open3d and polyscope: half a gigabyte
+test-neighbours:  ## cards in IPython, meshes through pyvista, open3d, polyscope and S3: half a gigabyte
 	$(PYTHON) -m venv .venv-neighbours
 	.venv-neighbours/bin/python -m pip install --quiet --upgrade "pip>=25.1"
 	.venv-neighbours/bin/python -m pip install --quiet --editable ".[all,view]" --group neighbours
-	.venv-neighbours/bin/python -m pytest -p no:dash tests/mesh/test_neighbours.py tests/display/test_cards.py
+	.venv-neighbours/bin/python -m pytest -p no:dash tests/mesh/test_neighbours.py tests/display/test_cards.py \
+	  tests/batch/test_s3.py
 
 docs: $(VENV)/.installed  ## the site, in site/; a warning is an error
 	$(BIN)/python -m pip install --quiet --group docs
@@ -71,7 +72,8 @@ audit: $(VENV)/.installed  ## bill of materials (dist/sbom.json); fails on what 
 
 FORMATS ?= obj off ply stl btm csv npy npz gz gii vtu
 SECONDS ?= 60
-fuzz: $(VENV)/.installed  ## readers, led by coverage, with bounds checked; finds stay in tests/fuzz/corpus
+fuzz: $(VENV)/.installed  ## readers, by Atheris, with bounds checked; finds stay in .fuzz
+	$(BIN)/python -m pip install --quiet --group fuzz
 	for format in $(FORMATS); do \
 	  PYTHONPATH=tests NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.fuzz-cache \
 	    $(BIN)/python -m fuzz $$format $(SECONDS) || exit 1; \
@@ -81,4 +83,4 @@ bench-large:  ## solver and spectra to 2.1M vertices, after `make bench`; writes
 	.venv-bench/bin/python -m benchmarks --large
 
 clean:
-	rm -rf $(VENV) .venv-bench .venv-neighbours .venv-audit .fuzz-cache tour site dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) .venv-bench .venv-neighbours .venv-audit .fuzz .fuzz-cache tour site dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

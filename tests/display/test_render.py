@@ -74,6 +74,33 @@ def test_zoom_shows_the_faces_larger(coarse_sphere):
     assert np.abs(large[150:250, 150:250].astype(int) - near).mean() < 1
 
 
+def test_without_a_height_panels_are_as_high_as_what_is_seen(sphere):
+    flat = sphere.with_vertices(sphere.vertices * [1, 0.2, 1])
+    options = {"view": (0, 0), "background": "black", "level_set": None, "caption": ["a", "b"]}
+    f = [sphere.vertices[:, 1], None]
+    square = render([flat, flat], f, size=(100, 100), **options)
+    fitted = render([flat, flat], f, size=(100, None), **options)
+    lost = len(square) - len(fitted)
+    assert 55 < lost < 80
+    # the rows that are gone are of the background, as many above as below
+    drawn = square[:, 100:].any(axis=2).any(axis=1)
+    assert drawn.sum() == fitted[:, 100:].any(axis=2).any(axis=1).sum()
+    above = len(render(flat, size=(100, 100), caption="a")) - 100
+    height = 100 - lost
+    assert any(
+        np.array_equal(fitted[above:][:height], square[above + cut :][:height])
+        for cut in (lost // 2, lost // 2 + 1)
+    )
+
+
+def test_without_a_height_the_highest_panel_rules(sphere):
+    flat = sphere.with_vertices(sphere.vertices * [1, 0.2, 1])
+    assert render([flat, sphere], size=(100, None), view=(0, 0)).shape == (100, 200, 3)
+    for size in ((0, None), (None, None), (None, 50), (10, 10, None)):
+        with pytest.raises(MeshError):
+            render(flat, size=size)
+
+
 def test_antialiasing_smooths_the_silhouette_and_keeps_the_rest(sphere):
     options = {"color": "white", "background": "black", "size": (80, 80), "shading": "gouraud"}
     hard, soft = (render(sphere, antialias=k, **options).astype(int) for k in (1, 3))

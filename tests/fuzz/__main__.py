@@ -1,100 +1,88 @@
 """Search for inputs that a reader does not bear, led by the branches that they reach.
 
-``PYTHONPATH=tests python -m fuzz FORMAT [seconds]`` changes inputs of the corpus at random, and
-keeps each that takes a new way: another pair of lines in Python, or another kind of error or of
-result, by which the branches of compiled kernels are told. One that breaks a reader is written to
-the current folder. Memory and time are bounded.
+``PYTHONPATH=tests python -m fuzz FORMAT [seconds]`` gives the corpus of a format to Atheris
+(libFuzzer), which changes inputs and keeps each that takes a new way in ``.fuzz/FORMAT``, from
+where the next search goes on. One that breaks a reader, or takes more memory or time than is
+allowed, is written to the current folder: it belongs into the corpus once that is mended.
+
+Functions are instrumented one by one after everything is loaded and compiled: numba compiles
+from the code of a function, and would meet that of the instrument. So the ways are those
+through Python; inside kernels the indices are checked (``NUMBA_BOUNDSCHECK=1``).
 """
 
 from __future__ import annotations
 
-import hashlib
-import re
-import resource
-import signal
 import sys
-import time
+import tempfile
+import types
 from pathlib import Path
 
-import numpy as np
+import atheris
 
 from fuzz import readers
 
+FINDS = Path(".fuzz")
 LONGEST = 700  # bytes
 LONGER = {"gii": 2500, "vtu": 2500}  # XML says little in 700
-SPACE = 6 << 30  # bytes of addresses; the libraries themselves take more than one of them
+MEMORY = 4096  # megabytes of the process, libraries included
 PATIENCE = 120  # seconds for an input, which may be the first to need a kernel
-_WATCHED = ("/beltrami/io/", "/beltrami/compression/", "/beltrami/spectrum/")
+_WATCHED = ("beltrami.io", "beltrami.compression", "beltrami.spectrum")
 
 
-def way_of(name, data):
-    """What an input reaches: pairs of lines, and the kind of the outcome."""
-    way, last = set(), {}
-
-    def inside(frame, event, _):
-        if event == "line":
-            key = (frame.f_code.co_filename, frame.f_code.co_name)
-            way.add((*key, last.get(key), frame.f_lineno))
-            last[key] = frame.f_lineno
-        return inside
-
-    def enter(frame, *_):
-        return inside if any(part in frame.f_code.co_filename for part in _WATCHED) else None
-
-    signal.alarm(PATIENCE)
-    sys.settrace(enter)
-    try:
-        outcome = readers.outcome(name, data)
-    finally:
-        sys.settrace(None)
-        signal.alarm(0)
-    way.add(" ".join(re.findall(r"[a-z]+", outcome.split("found")[0])[:3]))
-    return way
+def functions_of(space, met):
+    """Yield the plain functions of a module or of a class of ours, each once."""
+    for value in list(vars(space).values()):
+        value = getattr(value, "__func__", getattr(value, "fget", value))
+        ours = str(getattr(value, "__module__", "")).startswith(_WATCHED)
+        if not ours or id(value) in met:
+            continue
+        if isinstance(value, types.FunctionType):
+            met.add(id(value))
+            yield value
+        elif isinstance(value, type):
+            met.add(id(value))
+            yield from functions_of(value, met)
 
 
-def shortest(name, inputs):
-    """The inputs that are needed to go all the ways that these go, short ones first."""
-    kept, seen = [], set()
-    for data in sorted(inputs, key=lambda data: (len(data), data)):
-        way = way_of(name, data)
-        if not way <= seen:
-            kept.append(data)
-            seen |= way
-    return kept, seen
+def instrument():
+    """Have the functions tell where they go, and return how many do."""
+    met: set[int] = set()
+    modules = [module for name, module in sys.modules.items() if name.startswith(_WATCHED)]
+    found = [function for module in modules for function in functions_of(module, met)]
+    for function in found:
+        atheris.instrument_func(function)
+    return len(found)
 
 
-def search(name, seconds, rng):
-    """Change inputs for so long; the new ones are in the corpus."""
-    folder = readers.CORPUS / name
-    folder.mkdir(parents=True, exist_ok=True)
-    (kept, seen), tried = shortest(name, readers.corpus(name)), 0
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        data = readers.mutated(rng, kept)[: LONGER.get(name, LONGEST)]
-        tried += 1
-        label = hashlib.sha256(data).hexdigest()[:16]
-        try:
-            way = way_of(name, data)
-        except BaseException:
-            Path(f"broken-{label}.{name}").write_bytes(data)
-            raise
-        if not way <= seen:
-            seen |= way
-            kept.append(data)
-    kept, seen = shortest(name, kept)
-    for path in folder.iterdir():
-        path.unlink()
-    for data in kept:
-        (folder / hashlib.sha256(data).hexdigest()[:16]).write_bytes(data)
-    print(f"{name}: {tried} inputs, {len(kept)} kept, {len(seen)} ways")  # noqa: T201
+def dictionary(words):
+    """The words in libFuzzer's way of writing them."""
+    return "".join('"' + "".join(f"\\x{byte:02x}" for byte in word) + '"\n' for word in words)
 
 
 def main():
     name, seconds = sys.argv[1], float((sys.argv[2:] or ["60"])[0])
-    resource.setrlimit(resource.RLIMIT_AS, (SPACE, SPACE))
-    for data in readers.corpus(name):  # loads the kernels
+    for data in readers.corpus(name):  # loads all that is read with, and compiles it
         readers.outcome(name, data)
-    search(name, seconds, np.random.default_rng())
+    print(f"{name}: {instrument()} functions are watched")  # noqa: T201
+    (FINDS / name).mkdir(parents=True, exist_ok=True)
+    with tempfile.NamedTemporaryFile("w", suffix=".dict") as words:
+        words.write(dictionary(readers.WORDS))
+        words.flush()
+        options = {
+            "dict": words.name,
+            "max_len": LONGER.get(name, LONGEST),
+            "max_total_time": round(seconds),
+            "rss_limit_mb": MEMORY,
+            "timeout": PATIENCE,
+            "artifact_prefix": f"broken-{name}-",
+            "print_final_stats": 1,
+        }
+        given = [f"-{option}={value}" for option, value in options.items()]
+        atheris.Setup(
+            [sys.argv[0], *given, str(FINDS / name), str(readers.CORPUS / name)],
+            lambda data: readers.outcome(name, data),
+        )
+        atheris.Fuzz()
 
 
 if __name__ == "__main__":

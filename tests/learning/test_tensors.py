@@ -85,6 +85,26 @@ def test_gradients_flow_through_the_operators():
         assert (ahead - behind).item() / 2 == pytest.approx(along, rel=1e-5)
 
 
+def test_on_a_graphics_card_they_give_the_same():
+    torch = pytest.importorskip("torch")
+    if not torch.cuda.is_available():
+        pytest.skip("no graphics card of CUDA here")
+    found = []
+    for device in ("cpu", "cuda"):
+        tensors = OPERATORS.to("torch", device=device, dtype="float64")
+        for field in fields(LearningOperators):
+            assert getattr(tensors, field.name).device.type == device
+        torch.manual_seed(0)
+        x, turn = torch.randn(OPERATORS.n, 3).double(), torch.randn(3, 3).double()
+        x, turn = (given.to(device).requires_grad_() for given in (x, turn))
+        time = torch.full((3,), 0.1, dtype=torch.float64, device=device, requires_grad=True)
+        value = block(x, time, turn, **tensors.arguments)
+        value.backward()
+        found.append([value.item(), *(given.grad.cpu() for given in (x, time, turn))])
+    for ours, other in zip(*found, strict=True):
+        assert other == pytest.approx(ours, rel=1e-9, abs=1e-12)
+
+
 def test_a_batch_axis_can_be_added():
     pytest.importorskip("torch")
     tensors = OPERATORS.to("torch")

@@ -116,6 +116,7 @@ def _of_url(url: str) -> tuple[list[Source], bool]:
     protocol = head.partition("://")[0]
     try:
         files, path = fsspec.core.url_to_fs(url)
+        files.invalidate_cache()  # this process may have listed it before others added to it
         names = [str(name).lstrip("/") for name in sorted(files.glob(path))]
     except OSError:
         raise

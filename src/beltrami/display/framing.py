@@ -71,7 +71,7 @@ def fit_camera(
     """
     meshes = [meshes] if isinstance(meshes, Mesh) else list(meshes)
     planar = bool(meshes) and all(mesh.dimension == 2 for mesh in meshes)
-    center, radius = _ball([_drawn_points(mesh) for mesh in meshes])
+    center, radius = _ball([drawn_points(mesh) for mesh in meshes])
     frame = np.array(_FRAMES[check_name("axis", up, tuple(_FRAMES))], dtype=np.float64)
     direction = _direction(view, frame, planar)
     if not (math.isfinite(zoom) and zoom > 0):
@@ -104,7 +104,7 @@ def _direction(view: ArrayLike | None, frame: Floats, planar: bool) -> Floats:
     return unit_vector(given)
 
 
-def _drawn_points(mesh: Mesh) -> Floats:
+def drawn_points(mesh: Mesh) -> Floats:
     """Positions in space of the vertices that faces name."""
     positions, faces = in_space(mesh.vertices, mesh.faces)
     return np.asarray(positions[named_vertices(faces, len(positions))])

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from os import PathLike
+from typing import Any
 
 from numpy.typing import ArrayLike
 
 from beltrami._kinds import checked
 from beltrami.display.camera import Camera
 from beltrami.display.compose import compose
+from beltrami.display.cropping import rows_seen
 from beltrami.display.draw import draw_panel
 from beltrami.display.images import check_suffix, write_image
 from beltrami.display.light import Light
@@ -27,7 +30,7 @@ def render(
     f: ArrayLike | Sequence[ArrayLike | None] | None = None,
     path: str | PathLike[str] | None = None,
     *,
-    size: tuple[int, int] = (800, 800),
+    size: tuple[int, int | None] = (800, 800),
     view: ArrayLike | None = None,
     up: str = "y",
     zoom: float = 1.0,
@@ -69,6 +72,7 @@ def render(
         File to write as well: ``.png``, ``.webp`` or ``.gif``.
     size
         (width, height) of each panel, in pixels; captions and colour bars come on top of that.
+        With None for the height panels are as high as what is seen on them, at most square.
     view, up, zoom, focus
         Where the eye is: see ``framing.fit_camera``. The default is three quarters from
         the front, with y upwards; brains, scans and prints often want ``up="z"``.
@@ -137,8 +141,9 @@ def render(
     """
     if path is not None:
         check_suffix(path)  # before the work, not after
+    cropped = _lacks_height(size)
     style = Style(
-        size,
+        (size[0], size[0]) if cropped else size,  # type: ignore[arg-type]  # Style looks at it
         shading,
         color,
         background,
@@ -156,9 +161,17 @@ def render(
     if columns is not None and columns < 1:
         raise MeshError(f"{columns} columns, where at least 1 is needed")
     pictures = [draw_panel(panel, style) for panel in panels]
+    if cropped:
+        rows = rows_seen(panels, size[0])
+        pictures = [picture[rows] for picture in pictures]
+        style = replace(style, size=(size[0], rows.stop - rows.start))
     image = compose(
         pictures, panels, style, columns=columns or len(panels), colorbar=colorbar, font=font
     )
     if path is not None:
         write_image(path, image)
     return image
+
+
+def _lacks_height(size: Any) -> bool:
+    return isinstance(size, tuple | list) and len(size) == 2 and size[1] is None

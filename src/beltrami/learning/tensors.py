@@ -64,8 +64,9 @@ def as_tensors(arrays: Mapping[str, Any], device: Any, dtype: str) -> Tensors:
         matrix = value.tocoo()
         places = torch.from_numpy(np.stack(matrix.coords).astype(np.int64))
         numbers = torch.from_numpy(_rounded(matrix.data, name, dtype))
-        known = {"is_coalesced": True, "check_invariants": True}  # rows and columns ascend
-        return torch.sparse_coo_tensor(places, numbers, matrix.shape, **known).to(device)
+        with torch.sparse.check_sparse_tensor_invariants():  # torch 2.11 warns of the argument
+            made = torch.sparse_coo_tensor(places, numbers, matrix.shape, is_coalesced=True)
+        return made.to(device)
 
     return Tensors(*(tensor(field.name) for field in fields(Tensors)))
 

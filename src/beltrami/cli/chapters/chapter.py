@@ -85,7 +85,7 @@ class Stage:
         **options: Any,
     ) -> Figure:
         """Render a picture into the folder."""
-        settings: dict[str, Any] = {"up": self.up, "view": self.view, "size": (560, 460)}
+        settings: dict[str, Any] = {"up": self.up, "view": self.view, "size": (560, None)}
         render(meshes, f, self.folder / file, **(settings | options))
         return Figure(file, legend)
 

@@ -77,7 +77,7 @@ def _on_the_grid(stage: Stage, states: list[Floats]) -> Figure:
         [sheet] * len(states),
         [state.ravel() for state in states],
         caption=_captions(),
-        size=(380, 320),
+        size=(380, None),
         up="y",
         view=None,
         colormap="diverging",
@@ -100,7 +100,7 @@ def _on_the_mesh(stage: Stage) -> Figure:
         [mesh] * len(states),
         states,
         caption=_captions(),
-        size=(380, 320),
+        size=(380, None),
         colormap="diverging",
     )
 

@@ -68,7 +68,7 @@ def maps(stage: Stage) -> Chapter:
                 [whole.textured, found.mesh],
                 texture="checkerboard",
                 caption=["one piece", "atlas"],
-                size=(420, 360),
+                size=(420, None),
             ),
             *_charts(stage, found),
         ),

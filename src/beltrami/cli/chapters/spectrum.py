@@ -71,7 +71,7 @@ def _eigenfunctions(stage: Stage, basis: FourierBasis, shown: list[int]) -> Figu
         [stage.mesh] * len(shown),
         [basis.eigenvectors[:, i] for i in shown],
         caption=[f"mode {i}, λ = {number(float(basis.eigenvalues[i]))}" for i in shown],
-        size=(480, 300),
+        size=(480, None),
         columns=2,
         colormap="diverging",
         colorbar=False,

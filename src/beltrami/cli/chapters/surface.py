@@ -75,6 +75,8 @@ def _said(truth: bool) -> str:
 
 
 def _farthest(vertices: np.ndarray) -> np.ndarray:
-    """Return the vertex farthest from the middle, in space: a place with something to see."""
-    place = vertices[((vertices - vertices.mean(axis=0)) ** 2).sum(axis=1).argmax()]
+    """Return a place near the vertex farthest from the middle, in space: there is much to see."""
+    middle = vertices.mean(axis=0)
+    place = vertices[((vertices - middle) ** 2).sum(axis=1).argmax()]
+    place = place + 0.1 * (middle - place)  # so that the surface, not its end, fills the picture
     return np.pad(place, (0, 3 - len(place)))
