@@ -22,7 +22,7 @@ _RELAXATIONS = 200  # steps of it, at most
 _LARGE = 5000  # vertices from which a coarser mesh comes first
 _COARSER = 4  # times fewer vertices
 _HARDLY = 1.5  # likewise: if no more can go, it does not pay
-_SWEEPS = 4  # over a map that is made of a coarser one
+_SWEEPS = 10  # over a map that is made of a coarser one
 _PAYS = 4e-3  # decrease in a step that is worth it, where a coarser map has gone most of the way
 
 

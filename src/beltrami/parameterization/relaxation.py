@@ -30,7 +30,7 @@ from beltrami.solvers.ordering import as_positions, order
 _SHORTEST = 1e-8  # of a step, before it is given up
 _LONGER = 1.5  # factor by which a step is made longer, as long as the energy falls
 _SHORT = 0.7  # steps below it are followed by sweeps
-_SWEEPS = 2
+_SWEEPS = 4
 _SHIFT = 1e-9  # of the Hessian, over its mean diagonal: moving and turning cost nothing
 
 
