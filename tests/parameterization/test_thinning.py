@@ -96,12 +96,26 @@ def test_what_is_around_a_short_boundary_stays():
 
 
 def test_the_tip_of_a_spike_stays():
-    x = np.array(grid(15, 15).vertices)
-    tip = int(np.argmin(np.linalg.norm(x[:, :2], axis=1)))
-    mesh = Mesh(np.column_stack([x[:, :2], np.zeros(len(x))]), grid(15, 15).faces)
-    lifted = np.array(mesh.vertices)
-    lifted[tip, 2] = 5.0
-    assert tip in thinned(Mesh(lifted, mesh.faces), 70).kept
+    flat = grid(15, 15)
+    x = np.column_stack([flat.vertices[:, :2], np.zeros(flat.n_vertices)])
+    tip = int(np.argmin(np.linalg.norm(x - x.mean(axis=0), axis=1)))
+    x[tip, 2] = 5.0
+    spiky = Mesh(x, flat.faces)
+    first = np.concatenate([[tip], np.delete(np.arange(len(x)), tip)])  # its turn comes first
+    number = np.argsort(first)
+    one, other = (
+        first[thinned(Mesh(mesh.vertices[first], number[mesh.faces]), 200).kept]
+        for mesh in (spiky, flat)
+    )
+    assert tip in one
+    assert tip not in other
+
+
+def test_no_two_neighbours_go_in_a_pass():
+    mesh = DISKS["ball"]
+    gone = thinned(mesh, mesh.n_vertices - 60).removed
+    assert len(gone) == 60
+    assert not np.isin(mesh.edges, gone).all(axis=1).any()
 
 
 @pytest.mark.parametrize("unit", [2.0**-30, 2.0**30])
