@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -59,7 +60,7 @@ def written(found: Found, large: Sequence[Large], groups: Sequence[str]) -> str:
             parts += [f"\n## {group.capitalize()}\n", table(found, group)]
     if large:
         parts += ["\n## Large disks, by the default method\n", _large(large)]
-    parts += ["\n## Where and when\n", grid(("what", "value"), facts())]
+    parts += ["\n## Where and when\n", grid(("what", "value"), [*facts(), ("load", _load())])]
     parts += ["\n", grid(("package", "version"), [v for v in versions() if v[0] in PEERS])]
     return "\n".join(parts) + "\n"
 
@@ -146,6 +147,11 @@ def _large(large: Sequence[Large]) -> str:
         for one in large
     ]  # fmt: skip
     return grid(heads, rows)
+
+
+def _load() -> str:
+    """Tell how busy the machine was: CPU seconds grow where programs share caches."""
+    return f"{os.getloadavg()[2]:.1f} programs at a time, ours among them"
 
 
 def _energies(outcomes: dict[str, Outcome]) -> list[float]:
