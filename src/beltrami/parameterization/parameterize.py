@@ -71,9 +71,8 @@ def parameterize(
         positive. ``"cotangent"`` is negative where two angles add to more than π, and may fold
         (E90). By default ``"mean_value"`` for the method ``"tutte"``; else ``"clamped"``, and
         where that folds or ends at an energy above 50 the best of it, ``"mean_value"`` and
-        ``"combinatorial"``. Started from mean values, disks get maps that are as good but for
-        long tubes, whose maps are worse, and it takes longer: ``benchmarks.mapping_suite`` has a
-        row for it.
+        ``"combinatorial"``. Started from mean values, disks get maps that are as good, but long
+        tubes worse ones: ``benchmarks.mapping_suite`` has a row for it.
     boundary
         ``"circle"``, ``"square"``, a number of sides or the corners of a convex polygon: see
         ``place_boundary``.
