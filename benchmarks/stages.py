@@ -54,15 +54,15 @@ def rows_of(vertices: int, modes: int) -> list[tuple[str, float, str]]:
     found = [("order", ordering, ""), ("factor", numbers, f"{speed} entries")]
 
     b = np.random.default_rng(1).standard_normal((mesh.n_vertices, 64))
-    x, room = np.empty_like(b), lines_for(len(b), 64, b.dtype)
-    enter = best(lambda: enter_many(b, 0, 64, elimination.order, factor.scale, room))[0]
+    room = lines_for(len(b), 64, b.dtype)
+    enter = best(lambda: enter_many(b, 0, 64, elimination.order[:0], factor.scale, room))[0]
     inside = best(lambda: factor.substitute(room))[0]
-    leave = best(lambda: leave_many(room, 64, elimination.place, factor.scale, 0, x))[0]
+    leave = best(lambda: leave_many(room, 64, elimination.order[:0], factor.scale, 0, room))[0]
     rate = f"{4 * 64 * factor.fill / inside / 1e9:.0f} GF/s"
     found += [
-        ("64 right-hand sides: bring into order", enter, ""),
+        ("64 right-hand sides: scale", enter, ""),
         ("64 right-hand sides: substitute", inside, rate),
-        ("64 right-hand sides: bring back", leave, ""),
+        ("64 right-hand sides: scale back", leave, ""),
     ]
     bt.fourier_basis(bt.laplacian(bt.shapes.blob(10_000)), modes)  # loads what is compiled
     told = bt.fourier_basis(pair, modes).computation

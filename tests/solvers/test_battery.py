@@ -22,7 +22,7 @@ NOT_TOLD = {
     "cholmod": ("memory",),
     "pardiso": ("logdet",),
 }
-COUNTS = (1, 2, 3, 5, 8, 20, 130)  # one, three and many have loops of their own
+COUNTS = (1, 2, 3, 5, 8, 20, 130)  # one, a few and many have loops of their own
 
 
 def _factor(A, backend, options):

@@ -36,45 +36,61 @@ def _panel(rng, columns, below, dtype):
 @pytest.mark.parametrize(("dtype", "rounding"), [("f8", 1e-13), ("f4", 1e-4)])
 @pytest.mark.parametrize("columns", [1, 2, 3, 7, 8, 15, 16, 17, 35])
 @pytest.mark.parametrize("below", [0, 1, 6, 15, 20])
-def test_a_panel(columns, below, dtype, rounding):
+@pytest.mark.parametrize("reordered", [False, True])
+def test_a_panel(columns, below, reordered, dtype, rounding):
+    """Unknowns stand in their own order, or anywhere."""
     rng = np.random.default_rng(1000 * columns + below)
     L, panel = _panel(rng, columns, below, dtype)
     n = len(L)
-    for count in (1, 9, 40):
+    order = rng.permutation(n) if reordered else np.arange(0)
+    place = order if reordered else slice(None)
+    for count in (1, 5, 9, 40):
         b = rng.normal(size=(n, count))
         x = lines_for(n, count, dtype)
         x[:] = 0
-        x[:, :count] = b
+        x[place, :count] = b
         offsets = np.empty(n, np.int64)
-        solve_many(*panel, x, offsets)
+        solve_many(*panel, order, x, offsets)
         expected = np.linalg.solve(L, x.dtype.type(1) * b)
         assert np.allclose(
-            x[:, :count], expected, rtol=rounding, atol=rounding * abs(expected).max()
+            x[place, :count], expected, rtol=rounding, atol=rounding * abs(expected).max()
         )
         assert (x[:, count:] == 0).all()
         x[:] = 0
-        x[:, :count] = b
-        solve_many_transposed(*panel, x, offsets)
+        x[place, :count] = b
+        solve_many_transposed(*panel, order, x, offsets)
         expected = np.linalg.solve(L.T, b)
         assert np.allclose(
-            x[:, :count], expected, rtol=rounding, atol=rounding * abs(expected).max()
+            x[place, :count], expected, rtol=rounding, atol=rounding * abs(expected).max()
         )
 
 
 @pytest.mark.parametrize("dtype", ["f8", "f4"])
-@pytest.mark.parametrize("count", [1, 8, 9, 17])
-def test_entering_and_leaving(dtype, count):
+@pytest.mark.parametrize("count", [1, 4, 5, 8, 9, 17])
+@pytest.mark.parametrize("reordered", [False, True])
+def test_entering_and_leaving(count, reordered, dtype):
     rng = np.random.default_rng(count)
-    b, order, scale = rng.normal(size=(11, 30)), rng.permutation(11), rng.uniform(1, 2, 11)
+    b, order, scale = rng.normal(size=(11, 30)), np.arange(11), rng.uniform(1, 2, 11)
+    if reordered:
+        order = rng.permutation(11)
+    given = order if reordered else np.arange(0)
     x = lines_for(11, count, dtype)
     assert x.ctypes.data % 64 == 0
-    assert x.strides == (-(-count * x.itemsize // 64) * 64, x.itemsize)
+    size = count * x.itemsize
+    assert x.strides == (32 if size <= 32 else -(-size // 64) * 64, x.itemsize)
     x[:] = np.nan
-    enter_many(b, 5, count, order, scale, x)
+    enter_many(b, 5, count, given, scale, x)
     assert np.array_equal(x[:, :count], (b * scale[:, None])[order][:, 5 : 5 + count].astype(dtype))
     assert (x[:, count:] == 0).all()
     result = np.full((11, 30), np.inf)
-    leave_many(x, count, np.argsort(order), scale, 5, result)
+    leave_many(x, count, np.argsort(given), scale, 5, result)
     expected = x[np.argsort(order)][:, :count].astype(float) * scale[:, None]
     assert np.array_equal(result[:, 5 : 5 + count], expected)
     assert np.isinf(np.delete(result, np.s_[5 : 5 + count], axis=1)).all()
+
+
+def test_leaving_in_place():
+    x, scale = lines_for(7, 8, "f8"), np.arange(7.0)
+    x[:] = 3
+    leave_many(x, 8, np.arange(0), scale, 0, x)
+    assert np.array_equal(x, np.repeat(3 * scale[:, None], 8, axis=1))

@@ -18,8 +18,10 @@ from beltrami._arrays import Floats, Integers
 from beltrami.errors import NotPositiveDefiniteError, SingularMatrixError
 from beltrami.solvers.blas import blas
 from beltrami.solvers.elimination import Elimination
-from beltrami.solvers.fronts import factorize_fronts
+from beltrami.solvers.fronts import ROOM, factorize_fronts
 from beltrami.solvers.many import (
+    ONE,
+    TWO,
     enter_many,
     leave_many,
     lines_for,
@@ -27,9 +29,9 @@ from beltrami.solvers.many import (
     solve_many_transposed,
 )
 from beltrami.solvers.one import solve_one, solve_one_transposed
-from beltrami.solvers.three import enter, leave, solve_three, solve_three_transposed
 
 _BLOCK = 64  # right-hand sides that are solved for at a time
+_WHOLE = 8  # of them are a line of the cache
 _ROUNDING = {"float64": 1e-12, "float32": 1e-4}  # pivots smaller than this may be zero in truth
 
 
@@ -91,15 +93,15 @@ class Cholesky:
         """Return x with A x = b, for (n,) or (n, c)."""
         if b.ndim == 1 or b.shape[1] == 1:
             return self._solve_one(b.ravel()).reshape(b.shape)
-        right, x = np.ascontiguousarray(b), np.empty(b.shape)
-        if b.shape[1] == 3:
-            self._solve_three(right, x)
-            return x
-        blocks = -(-b.shape[1] // _BLOCK)
-        width = -(-b.shape[1] // max(blocks, 1))
+        right, c = np.ascontiguousarray(b), b.shape[1]
+        if self.signs is None and self.values.itemsize == 8 and c and c % _WHOLE == 0:
+            return self._solve_in_place(right)
+        x = np.empty(b.shape)
+        blocks = -(-c // _BLOCK)
+        width = -(-c // max(blocks, 1))
         room = lines_for(len(x), width, self.values.dtype)
-        for j in range(0, b.shape[1], max(width, 1)):
-            self._solve_many(right, j, min(width, b.shape[1] - j), room, x)
+        for j in range(0, c, max(width, 1)):
+            self._solve_many(right, j, min(width, c - j), room, x)
         return x
 
     @property
@@ -117,18 +119,6 @@ class Cholesky:
         solve_one_transposed(*self._panels, x, work)
         return x[shape.place] * self.scale
 
-    def _solve_three(self, b: Floats, result: Floats) -> None:
-        """Solve for (n, 3), as positions are."""
-        shape = self.elimination
-        x = np.empty((3, len(shape.order)), self.values.dtype)
-        enter(b, shape.order, self.scale, x)
-        work = np.empty((3, shape.widest + shape.tallest), x.dtype)
-        solve_three(*self._panels, x, work)
-        if self.signs is not None:
-            x *= self.signs
-        solve_three_transposed(*self._panels, x, work)
-        leave(x, shape.place, self.scale, result)
-
     def _solve_many(self, b: Floats, j: int, count: int, x: NDArray[Any], result: Floats) -> None:
         """Solve for columns j to j + count of b, into those of the result; x is the room."""
         shape = self.elimination
@@ -136,14 +126,28 @@ class Cholesky:
         self.substitute(x)
         leave_many(x, count, shape.place, self.scale, j, result)
 
+    def _solve_in_place(self, b: Floats) -> Floats:
+        """Solve inside the result: whole lines need not stand in the order of elimination.
+
+        Fresh memory takes as long as the arithmetic, so that no more of it is taken than this.
+        """
+        shape = self.elimination
+        x, same = lines_for(len(b), b.shape[1], b.dtype), shape.order[:0]
+        offsets = np.empty(shape.widest + shape.tallest, np.int64)
+        enter_many(b, 0, b.shape[1], same, self.scale, x)
+        solve_many(*self._panels, shape.order, x, offsets)
+        solve_many_transposed(*self._panels, shape.order, x, offsets)
+        leave_many(x, b.shape[1], same, self.scale, 0, x)
+        return x
+
     def substitute(self, x: NDArray[Any]) -> None:
         """Solve L S L' x = b in place, in the order of elimination; x is of ``lines_for``."""
         shape = self.elimination
-        offsets = np.empty(shape.widest + shape.tallest, np.int64)
-        solve_many(*self._panels, x, offsets)
+        offsets, same = np.empty(shape.widest + shape.tallest, np.int64), shape.order[:0]
+        solve_many(*self._panels, same, x, offsets)
         if self.signs is not None:
             x *= self.signs[:, None]
-        solve_many_transposed(*self._panels, x, offsets)
+        solve_many_transposed(*self._panels, same, x, offsets)
 
 
 def factorize_cholesky(
@@ -198,6 +202,8 @@ def _fill(matrix: csc_array, shape: Elimination, scale: Floats, values: NDArray[
             blas(values.dtype), values, np.empty(shape.stack, values.dtype),
             np.empty(len(shape.starts), np.int64), np.empty(len(shape.order), np.int64),
             np.empty(shape.tallest, np.uint64),
+            np.empty(shape.widest + shape.tallest + 8, np.int64), np.zeros(ROOM, values.dtype),
+            TWO if values.itemsize == 8 else ONE,
         )
     )  # fmt: skip
 

@@ -12,6 +12,9 @@ from beltrami._arrays import Integers
 from beltrami._jit import kernel
 from beltrami.solvers.dissection import Dissection
 
+GROUP = 16  # rows of a front that are treated together
+_FEW = 48  # rows that are sorted by insertion
+
 
 @dataclass(frozen=True, eq=False)
 class Elimination:
@@ -63,6 +66,12 @@ def eliminate(indptr: Integers, indices: NDArray[np.int32], dissection: Dissecti
         order, place, starts, children, siblings, row_starts, rows, panels,
         int(columns.max()), int(below.max()), _stack(children, siblings, below),
     )  # fmt: skip
+
+
+@kernel
+def stride(below: Any) -> Any:
+    """Return the numbers from one column of an update to the next: whole groups of rows."""
+    return -(-below // GROUP) * GROUP
 
 
 @kernel
@@ -119,22 +128,36 @@ def _rows(
                     rows[end] = p
                     end += 1
             child = siblings[child]
-        ascending = np.sort(rows[row_starts[i] : end])
-        for t in range(ascending.size):
-            rows[row_starts[i] + t] = ascending[t]
+        _ascend(rows, row_starts[i], end)
         row_starts[i + 1] = end
     return row_starts, rows[: row_starts[blocks]].copy()
 
 
 @kernel
+def _ascend(rows: Any, low: int, high: int) -> None:
+    """Sort rows[low:high], which are few most times, in place."""
+    if high - low > _FEW:
+        rows[low:high] = np.sort(rows[low:high])
+        return
+    for t in range(np.uint64(low), np.uint64(high)):
+        row = rows[t]
+        k: Any = t
+        while k > np.uint64(low) and rows[k - np.uint64(1)] > row:
+            rows[k] = rows[k - np.uint64(1)]
+            k -= np.uint64(1)
+        rows[k] = row
+
+
+@kernel
 def _stack(children: Any, siblings: Any, below: Any) -> int:
-    """Return the room for updates: each block puts its square on top, and takes its children's."""
+    """Return the room for updates: each block puts its update on top, and takes its children's."""
     top = highest = 0
     for i in range(children.size):
-        highest = max(highest, top + below[i] * below[i])
+        room = below[i] * stride(below[i])
+        highest = max(highest, top + room)
         child = children[i]
         while child >= 0:
-            top -= below[child] * below[child]
+            top -= below[child] * stride(below[child])
             child = siblings[child]
-        top += below[i] * below[i]
+        top += room
     return highest

@@ -11,9 +11,16 @@ from typing import Any
 import numpy as np
 
 from beltrami._jit import kernel
-from beltrami.solvers.blas import N, T, cholesky_in_place, divide_right, subtract_square
+from beltrami.solvers.blas import N, T, cholesky_in_place, multiply, subtract_square
+from beltrami.solvers.elimination import GROUP, stride
+from beltrami.solvers.many import forward
+from beltrami.solvers.tiles import BELOW, subtract
 
-NARROW = 12  # columns below which a panel is factorised without BLAS
+NARROW = 12  # columns below which a triangle is factorised by loops
+SMALL = 96  # columns up to which a front is treated without BLAS
+WIDTH = 64  # columns of a larger one at a time
+ROOM = GROUP * (SMALL + 1)  # numbers that are copied, and what is not needed
+_MINUS, _ONE = 1, 0  # places of the scalars
 
 
 @kernel
@@ -36,29 +43,30 @@ def factorize_fronts(
     stack_at: Any,
     local: Any,
     target: Any,
+    offsets: Any,
+    room: Any,
+    lines: Any,
 ) -> int:
     """Fill ``values`` (zero before) with the Cholesky factor of the scaled, permuted matrix.
 
     Returns -1, or the column that has no pivot; what would be its square stays on its diagonal.
-    Workspace: ``stack``, ``stack_at`` (s,), ``local`` (n,), ``target`` (tallest,).
+    Workspace: ``stack``, ``stack_at`` (s,), ``local`` (n,), ``target`` (tallest,), ``offsets``
+    (widest + tallest + 8,), ``room`` (ROOM,). ``lines`` of ``tiles`` that hold GROUP numbers.
     """  # fmt: skip
     top = 0
     for i in range(starts.size - 1):
         first, columns = starts[i], starts[i + 1] - starts[i]
         below = row_starts[i + 1] - row_starts[i]
         panel = values[panels[i] : panels[i + 1]]
-        update = stack[top : top + below * below]
+        update = stack[top : top + below * stride(below)]
         base = assemble(
             indptr, indices, data, scale, order, place, starts, children, siblings, row_starts,
             rows, stack, stack_at, local, target, i, panel, update, top,
         )  # fmt: skip
-        if columns < NARROW:
-            failed = factorize_narrow(panel, np.uint64(columns), np.uint64(columns + below), update)
-        else:
-            failed = _factorize_wide(b, panel, columns, below, update)
+        failed = _factorize(b, panel, columns, below, update, offsets, room, lines)
         if failed:
             return first + failed - 1
-        top = put_away(stack, stack_at, i, update, np.uint64(below), base, top)
+        top = put_away(stack, stack_at, i, update, below, base, top)
     return -1
 
 
@@ -90,11 +98,12 @@ def assemble(
     """  # fmt: skip
     first, columns = starts[i], starts[i + 1] - starts[i]
     below = row_starts[i + 1] - row_starts[i]
+    step = stride(below)
     for t in range(columns):
         local[first + t] = t
     for t in range(below):
         local[rows[row_starts[i] + t]] = columns + t
-        update[t * below + t : (t + 1) * below] = 0  # above the diagonal nobody looks
+        update[t * step + t : t * step + below] = 0  # above the diagonal nobody looks
     enter(
         indptr, indices, data, scale, order, place, first, columns, columns + below, local, panel
     )  # fmt: skip
@@ -105,8 +114,8 @@ def assemble(
             target[t] = local[rows[row_starts[child] + t]]
         at = stack_at[child]
         add(
-            stack[at : at + count * count], np.uint64(count), target,
-            np.uint64(columns), np.uint64(below), panel, update,
+            stack[at : at + count * stride(count)], np.uint64(count), np.uint64(stride(count)),
+            target, np.uint64(columns), np.uint64(columns + below), np.uint64(step), panel, update,
         )  # fmt: skip
         top = min(top, at)
         child = siblings[child]
@@ -115,68 +124,168 @@ def assemble(
 
 @kernel
 def put_away(
-    stack: Any, stack_at: Any, i: int, update: Any, below: Any, base: int, top: int
+    stack: Any, stack_at: Any, i: int, update: Any, below: int, base: int, top: int
 ) -> int:
     """Move the lower triangle of the update of block i to ``base``; return the top after it."""
+    step = np.uint64(stride(below))
     to, source = np.uint64(base), np.uint64(0)
     if base < top:
-        for c in range(below):
-            for r in range(c, below):
+        for c in range(np.uint64(below)):
+            for r in range(c, np.uint64(below)):
                 stack[to + r] = update[source + r]
-            to += below
-            source += below
+            to += step
+            source += step
     stack_at[i] = base
-    return int(base + np.int64(below * below))
+    return int(base + below * stride(below))
 
 
 @kernel
-def _factorize_wide(b: Any, panel: Any, columns: int, below: int, update: Any) -> int:
-    """Factorise a panel and subtract from the update, by BLAS; return 0 or the column, from 1."""
-    diagonal, height = panel.ctypes.data, columns + below
-    failed = cholesky_in_place(b, columns, diagonal, height)
-    if below and not failed:
-        under = diagonal + panel.itemsize * columns
-        divide_right(b, T, N, below, columns, diagonal, height, under, height)
-        subtract_square(b, below, columns, under, height, update.ctypes.data, below)
-    return failed
+def _factorize(
+    b: Any,
+    panel: Any,
+    columns: int,
+    below: int,
+    update: Any,
+    offsets: Any,
+    room: Any,
+    lines: Any,
+) -> int:
+    """Factorise a panel and subtract from its update; return 0, or the column that fails, from 1.
+
+    Some columns at a time: their triangle, then what is below it. BLAS subtracts, but in small
+    fronts, where it would take longer to be called than to work.
+    """  # fmt: skip
+    height, size = columns + below, panel.itemsize
+    start, there = panel.ctypes.data, update.ctypes.data
+    if columns <= SMALL:
+        failed = triangle(b, panel, columns, height)
+        if failed == 0 and below:
+            descend(panel, 0, columns, below, height, there, below, offsets, room, lines)
+        return failed
+    for k in range(0, columns, WIDTH):
+        width = min(WIDTH, columns - k)
+        corner = start + size * (k + k * height)
+        failed = cholesky_in_place(b, width, corner, height)
+        if failed:
+            return k + failed
+        right = columns - k - width
+        if right + below:
+            descend(
+                panel, k + k * height, width, right + below, height, there, 0, offsets, room, lines
+            )
+        under, rest = corner + size * width, corner + size * (width + width * height)
+        if right:
+            subtract_square(b, right, width, under, height, rest, height)
+        if right and below:
+            more = size * right
+            multiply(
+                b, N, T, below, right, width, _MINUS, _ONE, under + more, height, under, height,
+                rest + more, height,
+            )  # fmt: skip
+    if below:
+        under = start + size * columns
+        subtract_square(b, below, columns, under, height, there, stride(below))
+    return 0
 
 
 @kernel
-def factorize_narrow(panel: Any, columns: Any, height: Any, update: Any) -> Any:
-    """Do the same by loops: BLAS would take longer to be called than to work."""
-    one, two = np.uint64(1), np.uint64(2)
-    zero: Any = np.uint64(0)
-    at = zero
-    for j in range(columns):
+def triangle(b: Any, panel: Any, columns: int, height: int) -> int:
+    """Factorise the square on top of a panel, by loops if BLAS would be slow."""
+    if columns >= NARROW:
+        return cholesky_in_place(b, columns, panel.ctypes.data, height)
+    end, step, at = np.uint64(columns), np.uint64(height), np.uint64(0)
+    for j in range(end):
         for k in range(j):
-            other = k * height
+            other = k * step
             factor = panel[other + j]
-            for r in range(j, height):
+            for r in range(j, end):
                 panel[at + r] -= factor * panel[other + r]
         pivot = panel[at + j]
         if not pivot > 0:
-            return np.int64(j) + 1
+            return int(j) + 1
         root = np.sqrt(pivot)
         panel[at + j], inverse = root, 1 / root
-        for r in range(j + one, height):
+        for r in range(j + np.uint64(1), end):
             panel[at + r] *= inverse
-        at += height
-    below = height - columns
-    for c in range(below):
-        to = c * below
-        k = zero
-        while k + one < columns:
-            first, second = k * height + columns, (k + one) * height + columns
-            p, q = panel[first + c], panel[second + c]
-            for r in range(c, below):
-                update[to + r] -= p * panel[first + r] + q * panel[second + r]
-            k += two
-        if k < columns:
-            first = k * height + columns
-            p = panel[first + c]
-            for r in range(c, below):
-                update[to + r] -= p * panel[first + r]
+        at += step
     return 0
+
+
+@kernel
+def descend(
+    panel: Any,
+    corner: int,
+    columns: int,
+    rows: int,
+    height: int,
+    update: int,
+    below: int,
+    offsets: Any,
+    room: Any,
+    lines: Any,
+) -> None:
+    """Divide ``rows`` rows under a triangle by it, and subtract their products from an update.
+
+    It is the substitution of ``many``: a column is an unknown, and GROUP rows are as many
+    right-hand sides. The triangle starts at panel[corner]. Of the update, an address, the first
+    ``below`` columns are treated; its first row is the first under the triangle.
+    """  # fmt: skip
+    zero, size, rest = panel[0], panel.itemsize, rows % GROUP
+    where, step, start = offsets.ctypes.data, size * height, panel.ctypes.data + size * corner
+    x, spare = start + size * columns, room.ctypes.data
+    for t in range(columns):
+        offsets[t] = step * t
+    for r in range(0, rows - rest, GROUP):
+        forward(zero, x + size * r, where, columns, columns, start, step, lines)
+    for t in range(below):
+        offsets[columns + t] = update + size * stride(below) * t - x
+    for r in range(0, rows - rest if below else 0, GROUP):
+        last = min(below, r + GROUP)  # above the diagonal nobody looks
+        for t in range(below, last + 7):
+            offsets[columns + t] = spare - x - size * r  # eight columns at a time: some are none
+        _subtract(zero, x + size * r, where, columns, last, start, step, lines)
+    if rest:  # they are copied, for others follow them; an update has room for a whole group
+        x += size * (rows - rest)
+        at, copies = corner + columns + rows - rest, spare + size * GROUP
+        _copy(panel, at, height, columns, rest, room, True)
+        for t in range(columns):
+            offsets[t] = copies + size * GROUP * t - x
+        forward(zero, x, where, columns, columns, start, step, lines)
+        _copy(panel, at, height, columns, rest, room, False)
+        for t in range(below, below + 7 if below else 0):
+            offsets[columns + t] = spare - x
+        _subtract(zero, x, where, columns, below, start, step, lines)
+
+
+@kernel
+def _subtract(
+    zero: Any, x: int, where: int, columns: int, last: int, panel: int, step: int, lines: Any
+) -> None:
+    """Subtract from the first columns of an update, eight at a time."""
+    for t in range(0, last, 8):
+        subtract(zero, x, where, columns + t, 0, columns, panel, step, lines, 8, BELOW)
+
+
+@kernel
+def _copy(
+    panel: Any, at: int, height: int, columns: int, rows: int, room: Any, there: bool
+) -> None:
+    """Copy some rows of a panel into the room, where zeros follow them, or back.
+
+    The first GROUP numbers of the room are left out.
+    """
+    source, to = np.uint64(at), np.uint64(GROUP)
+    for _ in range(columns):
+        if there:
+            for r in range(np.uint64(rows)):
+                room[to + r] = panel[source + r]
+            for r in range(np.uint64(rows), np.uint64(GROUP)):
+                room[to + r] = 0
+        else:
+            for r in range(np.uint64(rows)):
+                panel[source + r] = room[to + r]
+        source += np.uint64(height)
+        to += np.uint64(GROUP)
 
 
 @kernel
@@ -207,25 +316,32 @@ def enter(
 
 @kernel
 def add(
-    square: Any, count: Any, target: Any, columns: Any, below: Any, panel: Any, update: Any
+    square: Any,
+    count: Any,
+    across: Any,
+    target: Any,
+    columns: Any,
+    height: Any,
+    step: Any,
+    panel: Any,
+    update: Any,
 ) -> None:
     """Add the lower triangle of a child's update to its parent's panel and update.
 
     Row and column t go to ``target[t]``, which ascends: the panel first, then what is below it.
     """
-    height = columns + below
     j = source = np.uint64(0)
     while j < count and target[j] < columns:
         to = target[j] * height
         for i in range(j, count):
             panel[to + target[i]] += square[source + i]
-        source += count
+        source += across
         j += np.uint64(1)
     for i in range(j, count):
         target[i] -= columns
     while j < count:
-        to = target[j] * below
+        to = target[j] * step
         for i in range(j, count):
             update[to + target[i]] += square[source + i]
-        source += count
+        source += across
         j += np.uint64(1)

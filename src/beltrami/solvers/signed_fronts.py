@@ -12,6 +12,7 @@ import numpy as np
 
 from beltrami._jit import kernel
 from beltrami.solvers.blas import N, T, divide_right, multiply
+from beltrami.solvers.elimination import stride
 from beltrami.solvers.fronts import assemble, put_away
 
 _ONE, _MINUS = 0, 1  # places of the scalars
@@ -53,7 +54,7 @@ def factorize_signed_fronts(
         first, columns = starts[i], starts[i + 1] - starts[i]
         below = row_starts[i + 1] - row_starts[i]
         panel = values[panels[i] : panels[i + 1]]
-        update = stack[top : top + below * below]
+        update = stack[top : top + below * stride(below)]
         base = assemble(
             indptr, indices, data, scale, order, place, starts, children, siblings, row_starts,
             rows, stack, stack_at, local, target, i, panel, update, top,
@@ -63,7 +64,7 @@ def factorize_signed_fronts(
         )
         if failed >= 0:
             return first + failed
-        top = put_away(stack, stack_at, i, update, np.uint64(below), base, top)
+        top = put_away(stack, stack_at, i, update, below, base, top)
     return -1
 
 
@@ -108,7 +109,7 @@ def _panel(
             multiply(
                 b, N, T, below - c, count, last - k, _MINUS, _ONE,
                 under + width * (right + c), height, there + width * (right + c), rest,
-                update.ctypes.data + width * (c + c * below), below,
+                update.ctypes.data + width * (c + c * stride(below)), stride(below),
             )  # fmt: skip
     return -1
 
