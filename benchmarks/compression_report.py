@@ -6,7 +6,9 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from benchmarks import compression_bounds
 from benchmarks.compressing import BOUNDED_MOST, Curve, Duration, Sizes
+from benchmarks.compression_bounds import Within
 from benchmarks.machine import facts
 from benchmarks.mesh_errors import bytes_at
 from benchmarks.packages import versions
@@ -186,10 +188,11 @@ def _seconds(found: Sequence[Found]) -> str:
     return grid(heads, lines)
 
 
-def written(found: Sequence[Found], effort: str) -> str:
+def written(found: Sequence[Found], effort: str, within: Sequence[Within] = ()) -> str:
     """Write the report."""
     parts = [HEAD, f"Effort: {effort}, unless another one is said.", "## Goals"]
-    parts.append(grid(("what", "value", "goal", ""), _goal_lines(found)))
+    goals = [*_goal_lines(found), *compression_bounds.goal_lines(within, SECONDS_GOALS)]
+    parts.append(grid(("what", "value", "goal", ""), goals))
     parts += ["## On the same grid", _ratios(found, SAME)]
     for measure, name in MEASURES.items():
         parts += [f"## At equal {name}", _ratios(found, measure)]
@@ -199,9 +202,14 @@ def written(found: Sequence[Found], effort: str) -> str:
     if any(mesh.durations for mesh in found):
         parts += ["## Seconds for 100k vertices, to and fro", _seconds(found)]
         parts.append("A file is not verified here; `compress` also decodes it unless told not to.")
+    if within:
+        parts += ["## Within a bound: seconds for 100k vertices, bits per vertex", _BOUNDS]
+        parts.append(compression_bounds.table(within))
     known = [*facts(), *((name, version) for name, version in versions() if name in _NAMED)]
     parts += ["## Machine and packages", grid(("", ""), known)]
     return "\n\n".join(part.strip() for part in parts) + "\n"
 
 
+_BOUNDS = """Errors are parts of the diagonal; with "auto" the mode follows that was taken. Every
+file keeps its bound. Seconds are those of compressing without verification."""
 _NAMED = ("beltrami", "DracoPy", "meshoptimizer", "zstandard", "numpy", "numba")

@@ -1,7 +1,8 @@
 """Maps of disks to the plane, beside libigl, PyMeshLab and xatlas: valid, distorted, how long.
 
 python -m benchmarks.mapping_suite [disk ...] [--largest 50000] [--slow 12000] [--details]
-python -m benchmarks.mapping_suite --large SIZE ...
+python -m benchmarks.mapping_suite --large SIZE ...     large blobs, and nothing else
+python -m benchmarks.mapping_suite [--folder kept] --output BENCHMARKS-MAPS.md
 
 Disks are natural ones, surfaces cut to disks, spheres less one triangle, and closed tubes less
 one triangle, longer and longer; every method gets the same vertices and faces. Slow peers (SLIM
@@ -15,39 +16,35 @@ of xatlas has charts of its own choice: they are counted.
 from __future__ import annotations
 
 import argparse
+import json
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import asdict
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.disks import GROUPS, suite
+from benchmarks.mapping_report import (
+    SECONDS_GOALS,
+    SLIM,
+    SLIM_STEPS,
+    Found,
+    Large,
+    Outcome,
+    written,
+)
 from benchmarks.packages import package
 from benchmarks.surfaces import disk_of, less_one
 
-FIXED_GOALS = {"natural": 1.8, "cut": 3.0, "one triangle": 10.0}
-SECONDS_GOALS = {50_000: 3.0, 200_000: 15.0}
-SLIM_GOAL, SLIM_STEPS = 1.1, 20
 SLOW = 12_000
-SLOW_PEERS = (f"libigl slim({SLIM_STEPS})", "xatlas")
+KEPT = "maps.jsonl"
+SLOW_PEERS = (SLIM, "xatlas")
 OURS = ("auto", "free", "tutte", "least_squares_conformal", "spectral_conformal")
 
 Array = NDArray[Any]
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """One map: whether it is a bijection, how distorted, in how many seconds."""
-
-    valid: bool
-    energy: float
-    seconds: float
-    note: str = ""
-
-
-Found = dict[tuple[str, str], dict[str, Outcome]]  # by group and method, then by disk
 
 
 def judged(mesh: Any, call: Callable[[], Array]) -> Outcome:
@@ -89,11 +86,15 @@ def methods(mesh: Any) -> Iterator[tuple[str, Callable[[], Outcome]]]:
         kept[method] = bt.parameterize(mesh, method, cut=False, strict=strict).uv
         return kept[method]
 
+    def from_mean_values() -> Array:
+        return np.asarray(bt.parameterize(mesh, "auto", "mean_value", cut=False).uv)
+
     for method in OURS:
         yield f"beltrami {method}", lambda method=method: judged(mesh, lambda: ours(method))
+    yield "beltrami auto, mean values", lambda: judged(mesh, from_mean_values)
     V, F = np.array(mesh.vertices), np.array(mesh.faces, dtype=np.int64)
     loop = np.array(mesh.boundary_loops[0])
-    for name, call in _libigl(V, F, loop, kept):
+    for name, call in _libigl(mesh, V, F, loop, kept):
         yield name, lambda call=call: judged(mesh, call)
     for name in ("harmonic", "least_squares_conformal_maps"):
         yield f"pymeshlab {name}", lambda name=name: judged(mesh, lambda: _pymeshlab(V, F, name))
@@ -101,7 +102,7 @@ def methods(mesh: Any) -> Iterator[tuple[str, Callable[[], Outcome]]]:
 
 
 def _libigl(
-    V: Array, F: Array, loop: Array, kept: dict[str, Array]
+    mesh: Any, V: Array, F: Array, loop: Array, kept: dict[str, Array]
 ) -> Iterator[tuple[str, Callable[[], Array]]]:
     def placed() -> Array:
         return np.asarray(package("igl").map_vertices_to_circle(V, loop))
@@ -125,7 +126,9 @@ def _libigl(
 
     yield "libigl harmonic", lambda: package("igl").harmonic(V, F, loop, placed(), 1)
     yield "libigl lscm", lscm
-    yield f"libigl slim({SLIM_STEPS})", slim
+    if "auto" not in kept:  # it was measured before
+        kept["auto"] = package("beltrami").parameterize(mesh, cut=False).uv
+    yield SLIM, slim
 
 
 def _pymeshlab(V: Array, F: Array, name: str) -> Array:
@@ -160,97 +163,29 @@ def _xatlas(V: Array, F: Array) -> Outcome:
     return Outcome(one.valid, one.energy, seconds, note)
 
 
-def report(found: Found, group: str) -> Iterator[str]:
-    """Yield the table of a group, then what it says of the goals."""
-    yield f"\n{group}: valid, median and largest symmetric Dirichlet energy of the valid, CPU\n"
-    yield "| method | valid | median | largest | seconds |"
-    yield "|---|---|---|---|---|"
-    for (of, method), outcomes in found.items():
-        if of == group:
-            energies = _energies(outcomes)
-            yield (
-                f"| {method} | {len(energies)} of {len(outcomes)} | {_median(energies)} | "
-                f"{max(energies, default=np.inf):.3g} | "
-                f"{sum(one.seconds for one in outcomes.values()):.1f} |"
-            )
-    fixed, free = found[group, "beltrami auto"], found[group, "beltrami free"]
-    valid = all(one.valid for one in (*fixed.values(), *free.values()))
-    yield f"\ngoal, every map a certified bijection: {'met' if valid else 'MISSED'}"
-    if group in FIXED_GOALS:
-        median = _median([one.energy for one in fixed.values()])
-        yield f"goal, fixed boundary, median <= {FIXED_GOALS[group]}: {median}"
-    slim = found.get((group, f"libigl slim({SLIM_STEPS})"), {})
-    for valid, words in ((True, "is valid"), (False, "is none, which is easier,")):
-        ratios = [
-            free[disk].energy / other.energy
-            for disk, other in slim.items()
-            if other.valid is valid and np.isfinite(other.energy)
-        ]
-        if ratios:
-            yield (
-                f"goal, free boundary, <= {SLIM_GOAL} x SLIM({SLIM_STEPS}) where that {words} on "
-                f"{len(ratios)} disks: {np.median(ratios):.3f} median, {max(ratios):.3f} largest"
-            )
-
-
-def summary(found: Found) -> Iterator[str]:
-    """Yield one table of all groups but the tubes: valid maps, and the median of each group."""
-    groups = [group for group in FIXED_GOALS if (group, "beltrami auto") in found]
-    yield f"\nall: valid maps, then median energy of the valid: {' / '.join(groups)}\n"
-    yield "| method | valid | median energy |"
-    yield "|---|---|---|"
-    for method in dict.fromkeys(name for _, name in found):
-        outcomes = [found.get((group, method), {}) for group in groups]
-        energies = [_energies(those) for those in outcomes]
-        yield (
-            f"| {method} | {sum(map(len, energies))} of {sum(map(len, outcomes))} | "
-            f"{' / '.join(map(_median, energies))} |"
-        )
-
-
-def _energies(outcomes: dict[str, Outcome]) -> list[float]:
-    return [one.energy for one in outcomes.values() if one.valid]
-
-
-def _median(energies: list[float]) -> str:
-    return f"{np.median(energies):.3g}" if energies else "-"
-
-
-def large(size: int) -> Iterator[str]:
-    """Map a blob, cut to a disk and less one triangle, with the default method; yield lines."""
+def large(size: int) -> Iterator[Large]:
+    """Map a blob, cut to a disk and less one triangle, with the default method."""
     bt = package("beltrami")
-    bt.parameterize(bt.shapes.blob(1500))  # compile
+    bt.parameterize(less_one(bt.shapes.blob(6000)))  # compile
     mesh = bt.shapes.blob(size)
-    goal = f", goal {SECONDS_GOALS[size]:g} s" if size in SECONDS_GOALS else ""
     for kind, disk in (("cut", disk_of(mesh)), ("one triangle", less_one(mesh))):
         outcome = judged(disk, lambda disk=disk: bt.parameterize(disk, cut=False).uv)
-        verdict = "a bijection" if outcome.valid else "NO bijection"
-        yield (
-            f"{kind}, {disk.n_vertices} vertices: {verdict}, energy {outcome.energy:.3g}, "
-            f"{outcome.seconds:.1f} s of CPU{goal}"
-        )
+        yield Large(kind, size, disk.n_vertices, outcome)
 
 
-def main() -> None:
-    """Print the tables."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.mapping_suite", description=__doc__)
-    parser.add_argument("disks", nargs="*", help="names of disks; all by default")
-    parser.add_argument("--largest", type=int, default=50_000, help="vertices of a disk, at most")
-    parser.add_argument("--slow", type=int, default=SLOW, help="likewise, for SLIM and xatlas")
-    parser.add_argument("--details", action="store_true", help="print every map")
-    parser.add_argument("--large", type=int, nargs="*", default=(), help="time such blobs instead")
-    asked = parser.parse_args()
-    for size in asked.large:
-        for line in large(size):
-            print(line, flush=True)
-    if asked.large:
-        return
+def measured(asked: argparse.Namespace) -> Found:
+    """Make all maps that are not kept from a run before, and keep each one."""
     found: Found = {}
+    file = None if asked.folder is None else asked.folder / KEPT
+    known = read_kept(file)
     for group, name, mesh in suite(asked.largest, asked.disks):
         for method, call in methods(mesh):
             if method in SLOW_PEERS and mesh.n_vertices > asked.slow:
                 continue
-            one = call()
+            one = known.get((group, name, method))
+            if one is None:
+                one = call()
+                keep(file, (group, name, method), one)
             found.setdefault((group, method), {})[name] = one
             if asked.details:
                 print(
@@ -259,10 +194,46 @@ def main() -> None:
                     f"{one.note}",
                     flush=True,
                 )
-    for group in GROUPS:
-        if any(of == group for of, _ in found):
-            print("\n".join(report(found, group)), flush=True)
-    print("\n".join(summary(found)))
+    return found
+
+
+def read_kept(file: Path | None) -> dict[tuple[str, str, str], Outcome]:
+    """Return what was kept: by group, disk and method."""
+    if file is None or not file.exists():
+        return {}
+    rows = [json.loads(line) for line in file.read_text().splitlines()]
+    return {(group, name, method): Outcome(**one) for group, name, method, one in rows}
+
+
+def keep(file: Path | None, key: tuple[str, str, str], one: Outcome) -> None:
+    """Add a line to the file, if there is one."""
+    if file is not None:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        with file.open("a") as stream:
+            stream.write(json.dumps([*key, asdict(one)]) + "\n")
+
+
+def main() -> None:
+    """Print the report, or write it."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.mapping_suite", description=__doc__)
+    parser.add_argument("disks", nargs="*", help="names of disks; all by default")
+    parser.add_argument("--largest", type=int, default=50_000, help="vertices of a disk, at most")
+    parser.add_argument("--slow", type=int, default=SLOW, help="likewise, for SLIM and xatlas")
+    parser.add_argument("--details", action="store_true", help="print every map")
+    parser.add_argument("--large", type=int, nargs="*", help="sizes of large blobs; with --output "
+                        "those that have goals, if this is not said")  # fmt: skip
+    parser.add_argument("--folder", type=Path, help="keep what is measured there, and go on")
+    parser.add_argument("--output", type=Path, help="write the report there")
+    asked = parser.parse_args()
+    sizes = asked.large
+    if sizes is None:
+        sizes = list(SECONDS_GOALS) if asked.output else []
+    found = measured(asked) if asked.output or not sizes else {}
+    text = written(found, [one for size in sizes for one in large(size)], GROUPS)
+    if asked.output is None:
+        print(text)
+    else:
+        asked.output.write_text(text)
 
 
 if __name__ == "__main__":

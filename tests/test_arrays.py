@@ -3,7 +3,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from beltrami._arrays import as_function, as_indices, frozen, read_only, require_finite
+from beltrami._arrays import (
+    as_function,
+    as_indices,
+    frozen,
+    read_only,
+    require_finite,
+    unwritten,
+)
 from beltrami.errors import DimensionError, MeshError, NonFiniteError
 
 
@@ -138,3 +145,29 @@ def test_indices_out_of_range_are_named():
 def test_what_is_neither_indices_nor_a_mask(wrong):
     with pytest.raises(MeshError):
         as_indices(wrong, 3, "sources")
+
+
+@pytest.mark.parametrize("shape", [0, 3, (0, 3), (2, 5, 3), 2**18, 2**18 + 1, (100_001, 3)])
+@pytest.mark.parametrize("kind", [np.uint8, np.int32, np.float64])
+def test_unwritten_arrays_are_those_of_numpy(shape, kind):
+    array = unwritten(shape, kind)
+    assert (array.shape, array.dtype) == (np.empty(shape).shape, kind)
+    assert array.flags.c_contiguous
+    assert array.flags.writeable
+    assert array.flags.aligned
+    array[...] = 1
+    assert array.sum() == array.size
+    if array.nbytes >= 2**21:
+        assert array.ctypes.data % 2**21 == 0
+
+
+def test_large_arrays_are_copied_once():
+    mine = np.arange(600_000).reshape(-1, 3)
+    kept = frozen(mine, np.int64)
+    assert np.array_equal(kept, mine)
+    assert not np.may_share_memory(kept, mine)
+    assert np.may_share_memory(frozen(kept, np.int64), kept)
+    with pytest.raises(ValueError, match="read-only"):
+        kept[0] = 7
+    with pytest.raises(ValueError, match="cannot set WRITEABLE"):
+        kept.flags.writeable = True

@@ -46,6 +46,22 @@ def test_a_plain_kernel_views_arrays_and_cannot_make_them():
         plain_kernel(add)(x, 2.0)
 
 
+def all_but_the_first(x):
+    return x[1:]
+
+
+def share(a, b):
+    return a / b
+
+
+def test_a_plain_kernel_cannot_return_a_view_and_may_raise():
+    """Nobody would count who holds the view; an error needs no memory of its own."""
+    with pytest.raises(numba.errors.NumbaError, match="returning of array"):
+        plain_kernel(all_but_the_first)(np.arange(4.0))
+    with pytest.raises(ZeroDivisionError):
+        plain_kernel(share)(1.0, 0.0)
+
+
 def test_without_the_option_a_plain_kernel_is_a_kernel(monkeypatch):
     honest = numba.njit
 

@@ -37,6 +37,7 @@ print(time.perf_counter() - start)
 def python(code: str, numba_cache: Path | None = None) -> str:
     """Run code in a fresh process, and return what it prints."""
     environment = dict(os.environ)
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)  # an installed package has its bytecode
     if numba_cache is not None:
         environment["NUMBA_CACHE_DIR"] = str(numba_cache)
     done = subprocess.run(

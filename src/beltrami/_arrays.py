@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import operator
 from typing import Any, TypeAlias
 
@@ -14,6 +15,8 @@ from beltrami.errors import DimensionError, MeshError, NonFiniteError, shown
 Floats: TypeAlias = NDArray[np.float64]
 Integers: TypeAlias = NDArray[np.int64]
 Booleans: TypeAlias = NDArray[np.bool_]
+
+_HUGE = 2**21  # bytes: a page of memory for those who need much of it
 
 
 def _can_change(array: NDArray[Any]) -> bool:
@@ -55,8 +58,28 @@ def frozen(array: ArrayLike, dtype: DTypeLike) -> NDArray[Any]:
     if result is given or np.may_share_memory(result, given):
         if not _can_change(given):
             return result
-        result = result.copy()
+        result = unwritten(given.shape, dtype)
+        result[...] = given
+        if isinstance(result.base, np.ndarray):
+            read_only(result.base)
     return read_only(result)
+
+
+def unwritten(shape: int | tuple[int, ...], dtype: DTypeLike) -> NDArray[Any]:
+    """Make an array as ``numpy.empty`` does; a large one fills huge pages from end to end.
+
+    The first touch of memory is dear. Numpy asks for huge pages, where there are any, but has small
+    ones before the first boundary between two of them and behind the last. Here the array begins
+    at one and has room up to another; what is not touched takes no memory.
+    """
+    kind = np.dtype(dtype)
+    size = math.prod(shape) if isinstance(shape, tuple) else shape
+    if size * kind.itemsize < _HUGE:
+        return np.empty(shape, kind)
+    pages = -(-size * kind.itemsize // _HUGE) + 1
+    block = np.empty(pages * _HUGE // kind.itemsize, kind)
+    start = -block.ctypes.data % _HUGE // kind.itemsize
+    return block[start : start + size].reshape(shape)
 
 
 def rectangular(array: ArrayLike) -> NDArray[Any]:

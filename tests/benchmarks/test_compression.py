@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from benchmarks.compressing import measure, same_faces
 from benchmarks.compression import main
+from benchmarks.compression_bounds import measure_within
 from benchmarks.compression_report import geometric_mean
 from benchmarks.mesh_errors import bytes_at, measure_errors
 
 import beltrami as bt
-from benchmarks import compression, other_codecs
+from benchmarks import compression, compression_bounds, other_codecs
 
 
 @pytest.fixture
@@ -75,6 +76,9 @@ def small_file(tmp_path):
 
 def test_the_tables_are_printed(without_draco, small_file, capsys, monkeypatch):
     monkeypatch.setattr(compression, "TIMED_FILES", ("a.ply",))
+    monkeypatch.setattr(compression, "BOUNDED_FILES", ("a.ply",))
+    monkeypatch.setattr(compression, "BLOB", 500)
+    monkeypatch.setattr(compression_bounds, "ERRORS", ("1e-2", "1e-4"))
     arguments = [str(small_file), "--bits", "5", "7", "--effort", "fast", "--runs", "1"]
     assert main(arguments) == 0
     printed = capsys.readouterr().out
@@ -89,6 +93,29 @@ def test_the_tables_are_printed(without_draco, small_file, capsys, monkeypatch):
     assert "| connectivity, worst (a.ply) |" in printed
     assert "| seconds for 100k vertices, fast: slowest (" in printed
     assert "| auto, error 1e-3, best | " in printed
+    assert "| error, effort, mode | a.ply | blob(500) |" in printed
+    assert printed.count("\n| 1e-4, fast, auto | ") == 1
+    for effort in ("best", "fast"):
+        assert f"| seconds for 100k vertices within a bound, {effort} (" in printed
+
+
+def test_a_file_beyond_its_bound_is_not_counted(monkeypatch):
+    """Were the bound not kept, there would be no seconds of it."""
+    mesh = bt.shapes.icosphere(2)
+    one = measure_within("sphere", mesh, "1e-3", "auto", "fast")
+    assert one.size == len(
+        bt.compress(
+            mesh, max_error=1e-3 * np.linalg.norm(np.ptp(mesh.vertices, axis=0)), effort="fast"
+        )
+    )
+    honest = bt.compress
+    monkeypatch.setattr(
+        bt,
+        "compress",
+        lambda mesh, max_error, **options: honest(mesh, max_error=3 * max_error, **options),
+    )
+    with pytest.raises(RuntimeError, match="farther off than 1e-3 in the mode grid"):
+        measure_within("sphere", mesh, "1e-3", "grid", "fast")
 
 
 def test_what_was_kept_is_not_measured_again(without_draco, small_file, tmp_path, monkeypatch):

@@ -41,6 +41,10 @@ def test_goals_are_judged_for_each_group():
     assert "0.600" in lines[2]
     assert "0.900 (<= 0.80: **missed**)" in lines[2]
     assert lines[3].endswith("not measured |")  # can is not organic
+    white = next(line for line in lines if "another kind" in line)
+    assert white.count("0 of 1 (0: met)") == 2
+    alarm = Case("blob", 0.2, 9, (facts((2, 0.3), (4, 0.5), warned=True),))
+    assert "1 of 1 (0: **missed**) | not measured" in goals([[alarm], []], odd, [])
     assert "said 0 of 1; median 2.000 (<= 1.00: **missed**)" in lines[-1]
 
 

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from benchmarks.disks import cut, natural, one_triangle, suite
-from benchmarks.mapping_suite import Outcome, judged, main, report, summary
+from benchmarks.mapping_report import Large, Outcome, goals, summary, table
+from benchmarks.mapping_suite import judged, keep, main, read_kept
 from benchmarks.surfaces import blocks, closed, less_one, sponge, tube
 
 import beltrami as bt
@@ -68,16 +69,43 @@ def test_invalid_maps_do_not_enter_the_median():
     found = {("cut", names[0]): {"a": good, "b": bad}}
     found["cut", names[1]] = {"a": better, "b": better}
     found["cut", names[2]] = {"a": better}  # a slow peer may not get all
-    text = "\n".join(report(found, "cut"))
-    assert "| beltrami auto | 1 of 2 | 4 | 4 | 2.0 |" in text
-    assert "MISSED" in text
-    assert "where that is valid on 1 disks: 1.000 median, 1.000 largest" in text
+    assert "| beltrami auto | 1 of 2 | 4 | 4 | 2.0 |" in table(found, "cut")
     assert "| beltrami auto | 1 of 2 | 4 |" in "\n".join(summary(found))
+    rows = {what: rest for what, *rest in goals(found, [])}
+    assert rows["beltrami auto: certified bijections"] == ["1", "2", "**missed**"]
+    assert rows["beltrami free: certified bijections"] == ["2", "2", "met"]
+    beside = rows["beltrami free / SLIM(20) where it is valid, cut, 1 disks: largest"]
+    assert beside == ["1.000 (median 1.000)", "<= 1.1", "met"]
 
 
-def test_the_command_prints_every_map_and_the_goals(monkeypatch, capsys):
-    monkeypatch.setattr("sys.argv", ["mapping_suite", "30 rings", "--details"])
+def test_goals_of_energy_and_time_are_missed_above_their_limits():
+    found = {("natural", "beltrami auto"): {"a": Outcome(True, 1.81, 1.0)}}
+    slow, wrong = Outcome(True, 2.0, 3.1), Outcome(False, 2.0, 0.1)
+    large = [Large("cut", 50_000, 50_123, slow), Large("one triangle", 10**6, 10**6, wrong)]
+    rows = {what: rest for what, *rest in goals(found, large)}
+    assert rows["beltrami auto, natural: median"] == ["1.810", "<= 1.8", "**missed**"]
+    assert rows["cut, 50123 vertices: seconds"] == ["3.1", "<= 3", "**missed**"]
+    assert rows["one triangle, 1000000 vertices: seconds"][1:] == ["a bijection", "**missed**"]
+
+
+def test_the_command_writes_every_map_and_the_goals(monkeypatch, capsys, tmp_path):
+    out = tmp_path / "maps.md"
+    given = ["30 rings", "--details", "--large", "--folder", str(tmp_path), "--output", str(out)]
+    monkeypatch.setattr("sys.argv", ["mapping_suite", *given])
     main()
-    out = capsys.readouterr().out
-    assert "tube, 30 rings, 386 vertices, beltrami free: valid" in out
-    assert "goal, every map a certified bijection: met" in out
+    assert "tube, 30 rings, 386 vertices, beltrami free: valid" in capsys.readouterr().out
+    text = out.read_text()
+    assert "| beltrami free: certified bijections | 1 | 1 | met |" in text
+    assert "## Tube" in text
+    assert "| libigl | " in text
+    monkeypatch.setattr(mapping_suite, "judged", None)  # all is kept
+    main()
+    assert out.read_text() == text
+
+
+def test_what_is_kept_comes_back(tmp_path):
+    file, one = tmp_path / "new" / "maps.jsonl", Outcome(False, np.inf, 0.5, "3 flipped")
+    assert read_kept(file) == {}
+    keep(file, ("cut", "a", "libigl lscm"), one)
+    keep(None, ("cut", "b", "libigl lscm"), one)
+    assert read_kept(file) == {("cut", "a", "libigl lscm"): one}

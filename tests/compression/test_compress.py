@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 
 import beltrami as bt
-from beltrami.compression import choosing
+from beltrami.compression import geometry
 from beltrami.compression.contents import describe
 from beltrami.errors import (
     BeltramiError,
@@ -100,20 +100,38 @@ def test_smooth_positions_keep_a_bound(max_error):
         assert 0.5 * max_error < describe(data).max_error <= max_error * (1 + 1e-9)
 
 
-def test_where_no_step_was_near_the_bound_one_is_taken_that_keeps_it(monkeypatch):
-    """The step for which even the largest error, 1.1 sqrt(d) of it, is below the bound."""
-    steps = []
-    honest = choosing.encode_freely
+@pytest.mark.parametrize("d", [2, 3, 5])
+@pytest.mark.parametrize("max_error", [2.0, 0.3, 0.01])
+def test_smooth_positions_keep_the_bound_at_the_step_of_the_grid(d, max_error):
+    """Noise, of which nothing can be guessed: every residual is as far from whole as can be."""
+    mesh = bt.shapes.grid(12, 12)
+    x = np.random.default_rng(d).normal(size=(mesh.n_vertices, d))
+    for effort in ("best", "fast"):
+        options = {"max_error": max_error, "effort": effort, "verify": False}
+        smooth = check(Mesh(x, mesh.faces), mode="smooth", **options)
+        plain = check(Mesh(x, mesh.faces), mode="grid", **options)
+        assert describe(smooth).step == describe(plain).step
 
-    def pessimistic(x, near, grid, *rest):
-        steps.append(grid.step)
-        data, worst = honest(x, near, grid, *rest)
-        return data, worst + 1.0
 
-    monkeypatch.setattr(choosing, "encode_freely", pessimistic)
-    check(bt.shapes.blob(500), max_error=0.02, mode="smooth", effort="fast")
-    assert len(steps) == 3
-    assert 0.8 * 0.02 < 1.1 * np.sqrt(3) * steps[-1] < 0.02
+def test_where_everything_is_smoothed_a_bound_is_no_excuse_not_to(monkeypatch):
+    """Of the smoothings the nearest in the mean that keeps the bound is told, not just none."""
+    mesh = bt.shapes.blob(3000)
+    data = bt.compress(mesh, max_error=0.1, mode="smooth", effort="fast")
+    monkeypatch.setattr(geometry, "best_choice", lambda *rest: 0)
+    plain = bt.compress(mesh, max_error=0.1, mode="smooth", effort="fast")
+    assert len(data) == len(plain)
+    assert rms(mesh, data) < 0.9 * rms(mesh, plain)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_spikes_on_a_very_fine_grid_come_back(seed):
+    """Guesses go wild beside them, far beyond all numbers; what is coded is found all the same."""
+    mesh = bt.shapes.grid(20, 20)
+    rng = np.random.default_rng(seed)
+    x = np.column_stack([mesh.vertices, np.zeros(mesh.n_vertices)])
+    x[rng.integers(0, len(x), 9)] += rng.choice([-50, 50, 1000], (9, 1)) * np.array([1, 1, 0.0])
+    for mode in ("grid", "smooth"):
+        check(Mesh(x, mesh.faces), bits=30, mode=mode)
 
 
 def test_smooth_surfaces_cost_less_than_noise():

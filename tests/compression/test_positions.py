@@ -160,7 +160,8 @@ def test_numbers_come_back_even_where_nothing_can_be_guessed(effort, spread):
     mesh = shapes.icosphere(1)
     numbers = np.random.default_rng(spread).integers(-spread, spread + 1, (mesh.n_vertices, 3))
     grid = PositionGrid(np.zeros(3), 1.0)
-    data = encode_positions(numbers.astype(float), mesh.faces, grid, effort)
+    near = look_around(mesh.faces, mesh.n_vertices)
+    data = encode_positions(numbers.astype(float), near, grid, effort)
     decoded = decode_positions(Reader(data, "x"), mesh.faces, mesh.n_vertices)
     np.testing.assert_array_equal(decoded, numbers)
     random = 3 * np.log2(2 * spread + 1) * mesh.n_vertices / 8

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from beltrami.compression.neighbourhood import look_around
-from beltrami.compression.smoothing import WEIGHTS, best_choice, smoothed
+from beltrami.compression.smoothing import WEIGHTS, best_choice, choice_near, smoothed
 from beltrami.mesh import shapes
 
 
@@ -53,3 +53,28 @@ def test_the_best_choice_follows_the_noise():
     assert best_choice(coarse, np.rint(coarse).astype(np.int64), near) > 2
     noise = fine + np.random.default_rng(0).normal(size=fine.shape) * 1e5
     assert best_choice(noise, np.rint(noise).astype(np.int64), near) == 0
+
+
+def test_of_the_smoothings_that_keep_a_bound_the_nearest_in_the_mean():
+    mesh = shapes.icosphere(3)
+    near = look_around(mesh.faces, mesh.n_vertices)
+    x = 6 * mesh.vertices
+    numbers = np.rint(x).astype(np.int64)
+    off = [
+        np.linalg.norm(smoothed(numbers, near, choice) - x, axis=1)
+        for choice in range(len(WEIGHTS) + 1)
+    ]
+    largest, mean = [one.max() for one in off], [(one**2).sum() for one in off]
+    for most in (*sorted(largest)[:6], min(largest) / 2, np.inf):
+        kept = [c for c in range(len(off)) if largest[c] <= most * (1 + 1e-12)]
+        expected = min(kept, key=mean.__getitem__, default=0)
+        assert best_choice(x, numbers, near, most * (1 + 1e-9)) == expected
+
+
+@pytest.mark.parametrize("start", range(len(WEIGHTS) + 1))
+def test_the_best_choice_is_found_from_everywhere(start):
+    mesh = shapes.icosphere(3)
+    near = look_around(mesh.faces, mesh.n_vertices)
+    x = 6 * mesh.vertices
+    numbers = np.rint(x)
+    assert choice_near(x, numbers, near, start) == best_choice(x, numbers, near)

@@ -175,7 +175,8 @@ def test_a_coarse_shape_takes_the_fewest_bytes_and_auto_finds_it():
         (BLOB, 0.05, "spectral"),
         (BLOB, 0.012, "spectral"),
         (BLOB, 0.007, "spectral"),
-        (bt.shapes.disk(8), 0.05, "smooth"),
+        (bt.shapes.disk(8), 0.05, "spectral"),
+        (BLOB, 0.004, "smooth"),
         (bt.shapes.cube(8), 0.05, "grid"),
     ],
 )

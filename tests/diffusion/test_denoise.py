@@ -368,6 +368,13 @@ class TestNoiseOfOtherKinds:
         best = min(rms(mesh.with_vertices(x), truth) for x in filtered(mesh, bench, LINEAR))
         assert rms(found.mesh, truth) < 1.2 * best
 
+    def test_strong_noise_on_a_sphere_leaves_less_than_the_best_linear_filter(self):
+        truth = shapes.icosphere(5)
+        mesh, _ = noisy(truth, 0.7)
+        bench = Bench.of(mesh)
+        best = min(rms(mesh.with_vertices(x), truth) for x in filtered(mesh, bench, LINEAR[8:16]))
+        assert rms(denoise(mesh).mesh, truth) < best
+
     def test_a_known_level_is_taken(self):
         mesh, sigma = noisy(BLOB, 0.2)
         assert denoise(mesh, "linear", noise=sigma).sigma == sigma

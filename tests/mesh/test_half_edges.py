@@ -4,6 +4,7 @@ from hypothesis import given, settings
 
 from beltrami.errors import MeshError
 from beltrami.mesh.half_edges import BOUNDARY, NOT_MANIFOLD, _paired, pair_sides
+from beltrami.mesh.shapes import icosphere
 from beltrami.mesh.topology import Topology
 from strategies import any_arrays
 
@@ -90,6 +91,34 @@ def test_room_is_enough_or_said_to_be_too_little(n):
             assert list(map(tuple, found.edges.tolist())) == edges
     assert found is not None
     assert enough < 91 or n == 5  # where nearly all edges have more than two faces
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.001, 0.5])
+@pytest.mark.parametrize("removed", [0.0, 0.05, 0.5])
+def test_numbers_and_faces_in_any_order(turned, removed):
+    """Buckets of all kinds side by side: pairs, few sides with a boundary or turned, many."""
+    rng = np.random.default_rng(20261127)
+    sphere = icosphere(3).faces
+    fan = np.stack([np.zeros(30), np.arange(1, 31), np.arange(2, 32)], axis=1).astype(np.int64)
+    faces = np.concatenate([sphere, sphere.max() + 1 + fan, [[0, 1, 1]]])
+    n = int(faces.max()) + 4
+    faces = rng.permutation(n)[rng.permutation(faces)]
+    faces = faces[rng.random(len(faces)) >= removed]
+    other = rng.random(len(faces)) < turned
+    faces[other] = faces[other, ::-1]
+    check(faces, n)
+    check(np.concatenate([faces, faces[:9], faces[:5]]), n)  # more than two faces at an edge
+
+
+def test_a_vertex_of_many_faces():
+    """More sides in one bucket than are compared at once: they are sorted."""
+    rng = np.random.default_rng(4)
+    for valence in (7, 8, 9, 16, 17, 500):
+        for centre in (0, valence // 2, valence):
+            rim = np.setdiff1d(np.arange(valence + 1), centre)
+            faces = np.stack([np.full(valence, centre), rim, np.roll(rim, -1)], axis=1)
+            check(rng.permutation(faces), valence + 2)
+            check(rng.permutation(faces[:-1]), valence + 2)
 
 
 def test_no_faces():

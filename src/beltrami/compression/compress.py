@@ -89,9 +89,12 @@ def compress(
         coefficients in the eigenvectors of Laplacians that the faces alone give, rounded to
         multiples of the step of the grid, then smoothed in the same way; few bytes for a coarse
         shape, and any beginning of the file is a coarser one (``decompress(..., partial=True)``).
-        ``"auto"``: with ``max_error`` the one that takes the fewest bytes, the others tried only
-        where the shape is coarse enough for them to win: below about a byte for each vertex; else
-        ``"grid"``.
+        ``"auto"``: with ``max_error`` the one that takes the fewest bytes, else ``"grid"``. The
+        bound is kept in any case. Meshes of at most 4000 vertices are written in every mode, and
+        the shortest is taken; of larger ones a twentieth of the vertices is, at least 2000, and all
+        in the mode that took the fewest bytes for these: so it may miss the shortest one by a few
+        percent where two modes come near each other. Where the grid takes more than 1.5 bytes for
+        each vertex, the other modes, which were never seen to win there, are not tried.
     terms
         With ``"spectral"``, no more than that many of the lowest frequencies of each block of at
         most 500 vertices (with the effort ``"fast"`` 250), the M of definition 21.
@@ -128,10 +131,12 @@ def compress(
     -----
     In O(n + m): on the grid about 30 microseconds per vertex with the best effort, 10 with the
     fast one, and as much again to verify (``python -m benchmarks.compression`` measures them).
-    ``"spectral"`` makes a basis of each block: about 90, 35 with the fast effort. With
-    ``max_error`` ``"smooth"`` tries two or three steps, each for as long as the grid takes;
-    ``"spectral"`` codes four steps in one basis, which takes about 100; ``"auto"`` takes all these
-    together where the shape becomes coarse. The first call in a new installation compiles.
+    ``"spectral"`` makes a basis of each block: about 70, 35 with the fast effort. With
+    ``max_error`` every mode writes all vertices once: ``"smooth"`` at a step that residuals
+    rounded with care always keep the bound at, ``"spectral"`` at the step that suits a sample (and
+    one a third larger, in the same basis), with corrections of the vertices beyond the bound.
+    Meshes of less than about ten thousand vertices take more for each, as their samples are no
+    small part of them. The first call in a new installation compiles.
 
     References
     ----------

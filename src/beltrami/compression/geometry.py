@@ -80,15 +80,14 @@ def _rounded_up(x: float) -> NDArray[np.float64]:
 
 def encode_positions(
     x: Floats,
-    faces: Integers,
+    near: Neighbourhood,
     grid: PositionGrid,
     effort: str,
     progress: Progress | None = None,
 ) -> bytes:
     """Write positions (n, d), rounded to the grid."""
     numbers = grid.round(x)
-    n, d = numbers.shape
-    near = surroundings(faces, n)
+    d = numbers.shape[1]
     data = to_varints([d, EFFORTS.index(effort), int(grid.is_short), 0])
     return data + grids.to_bytes(grid) + encode_numbers(numbers, near, effort, progress)
 
@@ -98,20 +97,23 @@ def encode_freely(
     near: Neighbourhood,
     grid: PositionGrid,
     effort: str,
+    is_bounded: bool = False,
     progress: Progress | None = None,
-) -> tuple[bytes, float]:
+) -> bytes:
     """Write positions (n, d) at whole numbers of steps from where they are expected, smoothed.
 
-    Returns the bytes and the largest error, at most 1.1 sqrt(d) steps.
+    They are at most 1.1 sqrt(d) steps off; ``is_bounded``: at most ``grid.bound``, which every
+    residual can keep, and of the smoothings one is taken that keeps it.
     """
     exact = (x - grid.origin) / grid.step
-    payload, placed = encode_offsets(exact, near, effort, progress)
-    choice = best_choice(exact, placed, near)
+    payload, placed = encode_offsets(exact, near, effort, is_bounded, progress)
+    most = grid.bound / grid.step * (1 + 2.0**-30) if is_bounded else np.inf
+    choice = best_choice(exact, placed, near, most)
     found = grid.points(smoothed(placed, near, choice))
     error = float(np.sqrt(((found - x) ** 2).sum(axis=1)).max(initial=0.0))
     head = [x.shape[1], EFFORTS.index(effort), int(grid.is_short), FREE + choice]
     data = to_varints(head) + grids.to_bytes(grid) + _rounded_up(error).tobytes()
-    return data + payload, error
+    return data + payload
 
 
 def decode_positions(

@@ -79,23 +79,37 @@ def _pair(ordered: Any, order: Any, opposite: Any) -> None:
         i += 1
 
 
-@kernel
-def coding_order(near: Any) -> Any:
+def coding_order(near: Neighbourhood) -> NDArray[np.int32]:
     """Order the vertices: next is the one in the most faces whose two others are done; O(m).
 
     Among equals the one that got there first; without any, a neighbour of the last one, else the
     first one that is left.
     """
+    n = len(near.starts) - 1
+    order: NDArray[np.int32] = sweep(near, np.zeros(min(n, 1), np.int64), n)
+    return order
+
+
+@kernel
+def sweep(near: Any, seeds: Any, each: int) -> Any:
+    """Order some vertices as for coding: ``each`` about every seed, as if the others came later."""
     n = near.starts.size - 1
     done = np.zeros(n, np.bool_)
     faces = np.zeros(n, np.int32)
-    order = np.empty(n, np.int32)
+    order = np.empty(min(n, seeds.size * each), np.int32)
     room = near.corners.size + 1
     following, vertex = np.empty(room, np.int32), np.empty(room, np.int32)
     head, tail = np.full(_BUCKETS, -1, np.int64), np.full(_BUCKETS, -1, np.int64)
     used = seed = 0
-    for k in range(n):
-        v = _next(head, following, vertex, done, faces)
+    for k in range(order.size):
+        v = whole(-1)
+        if k % each == 0:
+            head[:] = -1
+            v = whole(seeds[k // each])
+            while done[v]:
+                v = (v + 1) % n
+        else:
+            v = _next(head, following, vertex, done, faces)
         if v < 0:
             while done[seed]:
                 seed += 1

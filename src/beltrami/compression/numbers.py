@@ -33,9 +33,16 @@ def surroundings(faces: Integers, n: int) -> Neighbourhood:
 
 
 def encode_numbers(
-    numbers: Integers, near: Neighbourhood, effort: str, progress: Progress | None = None
+    numbers: Integers,
+    near: Neighbourhood,
+    effort: str,
+    progress: Progress | None = None,
+    order: Integers | None = None,
 ) -> bytes:
-    """Write (n, d) numbers, each below 2³⁸ or so: for each three columns a length, and bits."""
+    """Write (n, d) numbers, each below 2³⁸ or so: for each three columns a length, and bits.
+
+    With an ``order`` only those of the vertices that it names.
+    """
     n, d = numbers.shape
     data = b""
     for first in range(0, d, 3):
@@ -44,7 +51,7 @@ def encode_numbers(
         size = 9 * n + 1024
         while True:
             buffer, state = np.zeros(size, np.uint8), new_encoder()
-            _run(part, near, effort, state, buffer, progress)
+            _run(part, near, effort, state, buffer, progress, order=order)
             payload = finished(state, buffer)
             if payload is not None:
                 break
@@ -72,19 +79,29 @@ def decode_numbers(
 
 
 def encode_offsets(
-    x: Floats, near: Neighbourhood, effort: str, progress: Progress | None = None
+    x: Floats,
+    near: Neighbourhood,
+    effort: str,
+    is_bounded: bool = False,
+    progress: Progress | None = None,
+    order: Integers | None = None,
 ) -> tuple[bytes, Floats]:
-    """Return (bytes, what they decode to) of positions (n, d) in steps, within 0.6 of these."""
+    """Return (bytes, what they decode to) of positions (n, d) in steps.
+
+    Each coordinate is within 0.6 of a step; with a bound the distance is within 0.5 sqrt(d).
+    With an ``order`` only those of the vertices that it names are written.
+    """
     n, d = x.shape
     data, found = b"", np.zeros((n, d))
     for first in range(0, d, 3):
         truth = np.zeros((n, 3))
         truth[:, : d - first] = x[:, first : first + 3]
+        most = min(d - first, 3) / 4 if is_bounded else np.inf
         size = 9 * n + 1024
         while True:
             buffer, state = np.zeros(size, np.uint8), new_encoder()
             numbers = np.zeros((n, 3), np.int64)
-            placed = _run(numbers, near, effort, state, buffer, progress, truth)
+            placed = _run(numbers, near, effort, state, buffer, progress, truth, most, order)
             payload = finished(state, buffer)
             if payload is not None:
                 break
@@ -126,15 +143,17 @@ def _run(
     buffer: NDArray[np.uint8],
     progress: Progress | None,
     truth: Floats | None = None,
+    most: float = np.inf,
+    order: Integers | None = None,
 ) -> Floats:
     """Code all numbers, block by block; return the positions."""
     n = len(numbers)
     solves = _SOLVES[EFFORTS.index(effort)]
-    coder = new_coder(n, len(solves), np.zeros((0, 3)) if truth is None else truth)
-    order = coding_order(near)
+    coder = new_coder(n, len(solves), np.zeros((0, 3)) if truth is None else truth, most)
+    vertices = coding_order(near) if order is None else order
     done = 0
-    for size in stages(n, progress, _BLOCK):
-        code_positions(numbers, order, done, done + size, solves, near, coder, state, buffer)
+    for size in stages(len(vertices), progress, _BLOCK):
+        code_positions(numbers, vertices, done, done + size, solves, near, coder, state, buffer)
         done += size
         if ran_dry(state, buffer):
             break

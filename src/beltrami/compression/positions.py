@@ -36,6 +36,8 @@ class Coder(NamedTuple):
     truth : (n, 3) or (0, 3) float64
         With n rows, positions are not whole numbers but whole numbers from the slow blend: the
         nearest to these when writing. Without, they are the whole numbers themselves.
+    most : (1,) float64
+        How far off, squared, positions may become for the sake of residuals that are 0.
     known : (n,) bool
         Which they are.
     covariance : (2, 3, 3) float64
@@ -46,6 +48,7 @@ class Coder(NamedTuple):
 
     x: NDArray[np.float64]
     truth: NDArray[np.float64]
+    most: NDArray[np.float64]
     known: NDArray[np.bool_]
     covariance: NDArray[np.float64]
     axes: NDArray[np.float64]
@@ -55,11 +58,12 @@ class Coder(NamedTuple):
     opinions: Opinions
 
 
-def new_coder(n: int, solves: int, truth: NDArray[np.float64]) -> Coder:
+def new_coder(n: int, solves: int, truth: NDArray[np.float64], most: float = np.inf) -> Coder:
     """Prepare to code n positions with so many solves for each."""
     return Coder(
         np.zeros((n, 3)),
         truth,
+        np.array([most]),
         np.zeros(n, np.bool_),
         np.zeros((2, 3, 3)),
         np.zeros((3, 3)),
@@ -221,9 +225,23 @@ def _apart(a: float, b: float) -> int:
 
 
 @plain_kernel
-def _nearest(x: float) -> int:
-    """Round to a whole number, and a little more than half to 0: that costs less than it errs."""
-    return whole(0) if abs(x) < DEAD_ZONE else whole(np.floor(x + 0.5))
+def _nearest(x: float, zone: float) -> int:
+    """Round to a whole number, and what is nearer than ``zone`` to 0."""
+    return whole(0) if abs(x) < zone else whole(np.floor(x + 0.5))
+
+
+@plain_kernel
+def _zone(v: int, coder: Any) -> float:
+    """Return below what the residuals at v become 0: a little more than half costs less.
+
+    Half, where v would be too far off otherwise.
+    """
+    total = 0.0
+    for q in range(3):
+        x = coder.truth[v, q] - coder.blend.means[0, q]
+        away = x - _nearest(x, DEAD_ZONE)
+        total += away * away
+    return DEAD_ZONE if total <= coder.most[0] else 0.5
 
 
 @plain_kernel
@@ -233,6 +251,8 @@ def _code_vertex(v: int, c: int, i: int, numbers: Any, coder: Any, state: Any, b
     k = opinions.context
     k[2], k[3], k[4] = c, 0, 0
     e0 = e1 = 0.0
+    writes = coder.truth.shape[0] > 0 and state[DECODING] == 0
+    zone = _zone(v, coder) if writes else 0.5
     for q in range(3):
         middle, scale = _form_opinions(q, e0, e1, coder)
         base = 0.0
@@ -241,8 +261,8 @@ def _code_vertex(v: int, c: int, i: int, numbers: Any, coder: Any, state: Any, b
             middle -= base
             for e in range(opinions.middle.size):
                 opinions.middle[e] -= base
-            if not state[DECODING]:
-                numbers[v, q] = _nearest(coder.truth[v, q] - base)
+            if writes:
+                numbers[v, q] = _nearest(coder.truth[v, q] - base, zone)
         if i < 3:
             scale = max(scale, float(1 << _FIRST))
         x = code_near(numbers[v, q], middle, scale, opinions, state, buffer)

@@ -14,6 +14,7 @@ from beltrami.compression.tables import LN, LN_CELLS, TAIL_REACH, TAILS, WHOLE, 
 OPINIONS = 11
 LOGISTIC, LAPLACE = 0, 1
 FAR = 1 << 40  # beyond all numbers
+_FARTHEST = FAR << 4  # the interval that ends the search: beyond any guess, which may be wild
 _NOISE = 1100  # of ``WHOLE``: every distribution leaves that much anywhere
 _SURE = 2350  # the largest logit of an opinion
 _SPEED = 655
@@ -190,7 +191,7 @@ def _code_away(
         low, high = min(base, end), max(base, end)
         bit = 1 if low <= value <= high else 0
         number = min(step, 11) + shift
-        if _decide(bit, number, 0, sign, opinions, state, buffer) or size > FAR >> 4:
+        if _decide(bit, number, 0, sign, opinions, state, buffer) or size > _FARTHEST:
             break
         base = end + sign
         if step > 2:

@@ -14,6 +14,7 @@ import numpy as np
 
 from beltrami._arrays import Floats, Integers
 from beltrami._jit import kernel, plain_kernel
+from beltrami.compression.descent import downhill
 from beltrami.compression.neighbourhood import Neighbourhood
 from beltrami.compression.tables import whole
 
@@ -43,14 +44,31 @@ def smoothed(numbers: Integers | Floats, near: Neighbourhood, choice: int) -> Fl
     return x
 
 
-def best_choice(x: Floats, numbers: Integers | Floats, near: Neighbourhood) -> int:
-    """Return the choice with the least mean square distance to the true positions, in steps."""
-    losses = []
+def best_choice(
+    x: Floats, numbers: Integers | Floats, near: Neighbourhood, most: float = np.inf
+) -> int:
+    """Return the choice with the least mean square distance to the true positions, in steps.
+
+    Of those that leave no vertex farther off than ``most``; if there is none, 0.
+    """
+    losses, kept = [], []
+    patience = 1.3 if np.isinf(most) else 1.0  # with a bound the largest smoothings rarely serve
     for choice in range(len(WEIGHTS) + 1):
-        losses.append(float(((smoothed(numbers, near, choice) - x) ** 2).sum()))
-        if losses[-1] > 1.3 * min(losses):
+        squares = ((smoothed(numbers, near, choice) - x) ** 2).sum(axis=1)
+        losses.append(float(squares.sum()))
+        kept.append(squares.max(initial=0.0) <= most * most)
+        if losses[-1] > patience * min(losses):
             break
-    return int(np.argmin(losses))
+    return int(np.argmin(np.where(kept, losses, np.inf)))
+
+
+def choice_near(x: Floats, numbers: Floats, near: Neighbourhood, start: int) -> int:
+    """Return the best choice as far as one comes from ``start`` downhill."""
+
+    def loss(choice: int) -> float:
+        return float(((smoothed(numbers, near, choice) - x) ** 2).sum())
+
+    return downhill(loss, len(WEIGHTS) + 1, start)
 
 
 @kernel

@@ -15,12 +15,13 @@ from beltrami.compression.coefficients import code_coefficients, new_memory
 from beltrami.compression.corrections import corrections_for, encode_corrections
 from beltrami.compression.grid import PositionGrid
 from beltrami.compression.neighbourhood import Neighbourhood
-from beltrami.compression.numbers import surroundings
 from beltrami.compression.range_coder import POSITION, finished, new_encoder
-from beltrami.compression.smoothing import best_choice, smoothed
+from beltrami.compression.smoothing import best_choice, choice_near, smoothed
 from beltrami.compression.spectral_head import MOST_IN_A_BLOCK, SpectralHead
 from beltrami.compression.transform import DEAD_ZONE, add_up, analyse, length_of, rounded
 from beltrami.compression.varint import to_varints
+
+_MORE = 32  # eigenvectors that are made of a block beyond those that are expected
 
 
 @dataclass
@@ -45,26 +46,78 @@ class Rounding:
     basis: BlockBasis
 
 
-def encode_spectrum(
+@dataclass(frozen=True, eq=False)
+class Spectrum:
+    """Positions as coefficients, rounded to each of several steps.
+
+    Parameters
+    ----------
+    x, near, effort, max_error
+        Those of ``analyse_all``.
+    blocks
+        Of vertices.
+    roundings
+        One for each step.
+    """
+
+    x: Floats
+    near: Neighbourhood
+    effort: str
+    max_error: float | None
+    blocks: Blocks
+    roundings: list[Rounding]
+
+    def best_choice(self, i: int, start: int | None = None) -> int:
+        """Return the smoothing that suits step i best; from ``start`` downhill, or of all."""
+        one = self.roundings[i]
+        exact = (self.x - one.grid.origin) / one.grid.step
+        if start is None:
+            return best_choice(exact, one.x, self.near)
+        return choice_near(exact, one.x, self.near, start)
+
+    def written(self, i: int, choice: int) -> bytes:
+        """Write what is rounded to step i, smoothed, and corrected where that is needed.
+
+        Chapter items: P60, P66, P67, P68.
+        """
+        return _written(self, self.roundings[i], choice)
+
+
+def analyse_all(
     x: Floats,
-    faces: Integers,
+    near: Neighbourhood,
     grids: Sequence[PositionGrid],
     effort: str,
     terms: int | None = None,
     max_error: float | None = None,
     progress: Progress | None = None,
-) -> bytes:
-    """Write positions (n, d); of several steps (of one origin) the one of the fewest bytes.
+) -> Spectrum:
+    """Find the coefficients of positions (n, d), and round them to each step, of one origin.
 
-    With ``max_error`` vertices that are farther off are corrected.
+    With ``max_error`` vertices that are farther off will be corrected, and high frequencies are
+    left out where those before them are small.
+    """
+    blocks = cut_into_blocks(near, len(x), MOST_IN_A_BLOCK[effort])
+    most = MOST_IN_A_BLOCK[effort] if terms is None else terms
+    frugal = max_error is not None
+    roundings = _roundings(x, grids, blocks, near, most, frugal, progress)
+    return Spectrum(x, near, effort, max_error, blocks, roundings)
+
+
+def encode_spectrum(
+    x: Floats,
+    near: Neighbourhood,
+    grid: PositionGrid,
+    effort: str,
+    terms: int | None = None,
+    progress: Progress | None = None,
+) -> bytes:
+    """Write positions (n, d).
 
     Chapter items: P60, P66, P67, P68.
     """
-    near = surroundings(faces, len(x))
-    blocks = cut_into_blocks(near, len(x), MOST_IN_A_BLOCK[effort])
-    most = MOST_IN_A_BLOCK[effort] if terms is None else terms
-    roundings = _roundings(x, grids, blocks, near, most, progress)
-    return min((_written(x, one, blocks, near, effort, max_error) for one in roundings), key=len)
+    found = analyse_all(x, near, [grid], effort, terms, None, progress)
+    return found.written(0, found.best_choice(0))
 
 
 def _roundings(
@@ -73,6 +126,7 @@ def _roundings(
     blocks: Blocks,
     near: Neighbourhood,
     most: int,
+    frugal: bool,
     progress: Progress | None,
 ) -> list[Rounding]:
     """Round the coefficients to each step, and add them up; each basis is made once."""
@@ -83,10 +137,11 @@ def _roundings(
     ]
     least = DEAD_ZONE * min(grid.step for grid in grids)
     local = x - grids[0].origin
-    basis = BlockBasis(near)
+    basis, enough = BlockBasis(near), _MORE if frugal else most
     for first, last in blocks.each(progress):
         vertices = blocks.vertices[first:last]
-        U, c = analyse(local, vertices, basis, least, most)
+        U, c = analyse(local, vertices, basis, least, most, enough)
+        enough = len(c) * 4 // 3 + _MORE if frugal else most
         for one in found:
             numbers = rounded(c / one.grid.step)
             one.numbers[first : first + len(c)] = numbers
@@ -101,29 +156,22 @@ def sum_up(U: Floats, numbers: Integers, vertices: Integers, x: Floats, basis: B
     add_up(vectors, numbers.astype(np.float64), vertices, x)
 
 
-def _written(
-    x: Floats,
-    rounding: Rounding,
-    blocks: Blocks,
-    near: Neighbourhood,
-    effort: str,
-    max_error: float | None,
-) -> bytes:
-    """Write one rounding, smoothed as it is best, and corrected where that is needed."""
+def _written(spectrum: Spectrum, rounding: Rounding, choice: int) -> bytes:
+    """Write one rounding."""
+    x, near, max_error = spectrum.x, spectrum.near, spectrum.max_error
     d = x.shape[1]
     grid, numbers = rounding.grid, rounding.numbers
-    choice = best_choice((x - grid.origin) / grid.step, rounding.x, near)
     found = grid.points(smoothed(rounding.x, near, choice))
     vertices, offsets, step = np.zeros(0, np.int64), np.zeros((0, d), np.int64), 0.0
     if max_error is not None:
         vertices, offsets, step = corrections_for(x, found, max_error)
         found[vertices] += step * offsets
-    lengths = np.array([length_of(numbers[a:b]) for a, b in blocks.each()], np.int64)
+    lengths = np.array([length_of(numbers[a:b]) for a, b in spectrum.blocks.each()], np.int64)
     terms = int(lengths.max(initial=0))
     bound = float(np.sqrt(((found - x) ** 2).sum(axis=1)).max(initial=0.0)) * (1 + 2.0**-40)
     digest = rounding.basis.digest()
-    head = SpectralHead(grid, effort, choice, bound, terms, len(vertices), step, digest)
-    coded = _coded(numbers, blocks, lengths, terms)
+    head = SpectralHead(grid, spectrum.effort, choice, bound, terms, len(vertices), step, digest)
+    coded = _coded(numbers, spectrum.blocks, lengths, terms)
     data = head.to_bytes() + to_varints([len(coded)]) + coded
     return data + encode_corrections(vertices, offsets)
 

@@ -15,18 +15,26 @@ _ROUNDING = 1e-9  # of the length of x: more than that of sums
 
 
 def analyse(
-    x: Floats, vertices: Integers, basis: BlockBasis, least: float, most: int
+    x: Floats, vertices: Integers, basis: BlockBasis, least: float, most: int, enough: int
 ) -> tuple[Floats, Floats]:
     """Return (vectors (n, k), coefficients (k, d)) of a block; those left out are below ``least``.
 
     At most ``most`` of them, whatever is left out. How many are needed is found in the
-    tridiagonal eigenvectors, of which only those are turned back.
+    tridiagonal eigenvectors, of which only those are turned back. Of these as many are made as
+    ``enough`` says, or twice or four times as many, until the last quarter of them is not needed;
+    what lies beyond is taken for small.
     """
     local = np.ascontiguousarray(x[vertices])
     block = basis.reduced(vertices)
-    Y = block.tridiagonal_vectors(min(most, len(vertices)))
-    rounding = _ROUNDING * float(np.sqrt((local**2).sum()))
-    count = length_of(block.sizes(Y, local) > least - rounding)
+    least -= _ROUNDING * float(np.sqrt((local**2).sum()))
+    most = min(most, len(vertices))
+    made = min(enough, most)
+    while True:
+        Y = block.tridiagonal_vectors(made)
+        count = length_of(block.sizes(Y, local) > least)
+        if made == most or 4 * count <= 3 * made:
+            break
+        made = min(2 * made, most)
     U = block.turned(np.ascontiguousarray(Y[:, : max(count, 1)]))
     c = np.zeros((U.shape[1], x.shape[1]))
     project(U, local, c)

@@ -25,7 +25,8 @@ from beltrami.mesh.mesh import Mesh
 from beltrami.solvers.locality import LocalRows
 
 _VARIATION_ROUNDS = 100
-_EVENING = Linear(0.5)  # leaves normals that tell the directions of the noise
+EVENING = Linear(0.5)  # leaves normals that tell the directions of the noise
+EVENING_IF_STRONG = Linear(0.2)
 
 
 @dataclass(frozen=True)
@@ -81,19 +82,22 @@ class Bench:
         Of the faces.
     normals
         (n, 3), of the vertices of the evened mesh: directions of the noise.
+    evening
+        The low pass that evens it.
     """
 
     rows: LocalRows
     rows_by_length: LocalRows
     rings: FaceRings
     normals: Floats
+    evening: Linear
 
     @classmethod
-    def of(cls, mesh: Mesh) -> Bench:
+    def of(cls, mesh: Mesh, evening: Linear = EVENING) -> Bench:
         """Prepare it; vertices of no face are left alone."""
-        rows = equal_rows(mesh)
-        evened = mesh.with_vertices(low_passed(rows, mesh.vertices, _EVENING))
-        return cls(rows, rows_by_length(evened), face_rings(mesh.topology), evened.vertex_normals)
+        rows, rings = equal_rows(mesh), face_rings(mesh.topology)
+        evened = mesh.with_vertices(low_passed(rows, mesh.vertices, evening))
+        return cls(rows, rows_by_length(evened), rings, evened.vertex_normals, evening)
 
 
 def along_normals(mesh: Mesh, moved: Floats) -> Floats:
@@ -136,7 +140,7 @@ def _rows_in_parts(mesh: Mesh, bench: Bench, filters: list[Linear]) -> dict[floa
     contrasts = {one.contrast for one in filters if one.in_parts}
     if not contrasts:
         return {}
-    evened = mesh.with_vertices(low_passed(bench.rows, mesh.vertices, _EVENING))
+    evened = mesh.with_vertices(low_passed(bench.rows, mesh.vertices, bench.evening))
     return {contrast: rows_by_normals(evened, contrast) for contrast in contrasts}
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
 
 from beltrami._arrays import Booleans, Floats
 from beltrami.diffusion.candidates import (
+    EVENING,
     OF_NORMALS,
     SECOND,
     Bench,
@@ -18,7 +19,8 @@ from beltrami.diffusion.candidates import (
     along_normals,
     filtered,
 )
-from beltrami.diffusion.linear_filters import IN_PARTS, LINEAR
+from beltrami.diffusion.colour import NoiseColour
+from beltrami.diffusion.linear_filters import IN_PARTS, LINEAR, Linear
 from beltrami.diffusion.patches import Sample
 from beltrami.diffusion.risk import best_mixture, mixture_risk
 from beltrami.mesh.mesh import Mesh
@@ -30,11 +32,14 @@ _SEED = 20_110
 _SAME = 0.005  # relative change of a level from cut to cut, twice
 _MANY = 10_000  # vertices; of fewer, changes are larger by chance
 _NEAR = 0.15  # relative change of the level by that at most
-_CAUTION = 1.15  # of σ: see the notes of denoise
-_CAUTION_IF_STRONG = 1.7  # the normals, along which noise is looked for, are off themselves
+_NEAR_IF_COLOURED = 0.4  # where lower frequencies are guessed
+CAUTION = 1.15  # of σ: see the notes of denoise
+CAUTION_IF_STRONG = 1.05  # found with EVENING_IF_STRONG
 _SURE = 2.0  # standard deviations that are no chance
 _SURE_ON_SMOOTH = 4.0  # where there seems to be nothing that low passes cannot do
 _LEAST = 0.005  # weights below this are left out
+LOW_PASSES: tuple[Filter, ...] = (*LINEAR, *IN_PARTS)
+ALL = (*LOW_PASSES, *OF_NORMALS)
 AS_IT_IS, ALONG_NORMALS = "as it is", "along normals"  # the first mixture, seconded by itself
 
 
@@ -96,10 +101,12 @@ class _Trial:
         # the noise that is left is at least what a filter of this divergence must leave
         return weights, max(risk, (sigma * float(weights @ divergence)) ** 2)
 
-    def level(self, here: list[Floats], there: list[list[Floats]], sigma: float) -> float | None:
+    def level(
+        self, here: list[Floats], there: list[list[Floats]], sigma: float, near: float
+    ) -> float | None:
         """Return the level of what low passes remove, if it is the same for a range of cuts.
 
-        The most even place of the longest such range counts; None, if there is none near σ.
+        The most even place of the longest such range counts; None, if there is none ``near`` σ.
 
         What a low pass H removes is (Id - H) of the noise, and of the shape: that the level of
         this noise does not change from cut to cut says that nothing is removed of the shape, and
@@ -117,7 +124,7 @@ class _Trial:
         levels = np.sqrt(np.array(removed) / shares)
         change = np.abs(np.diff(np.log(levels)))
         worst = np.maximum(change[1:], change[:-1])
-        worst[np.abs(np.log(levels[1:-1] / sigma)) > _NEAR] = np.inf
+        worst[np.abs(np.log(levels[1:-1] / sigma)) > near] = np.inf
         alike = worst < _SAME * max(1.0, math.sqrt(_MANY / core.sum()))
         ends = np.flatnonzero(np.diff(np.concatenate([[False], alike, [False]])))
         if not len(ends):
@@ -130,33 +137,34 @@ def choose(
     sample: Sample,
     sigma: float,
     normals: Floats,
+    filters: tuple[Filter, ...] = ALL,
     *,
     known: bool = True,
-    plain: bool = False,
-    strong: bool = False,
+    caution: float = CAUTION,
+    evening: Linear = EVENING,
+    colour: NoiseColour | None = None,
 ) -> Choice:
     """Choose both mixtures for noise of the level σ along ``normals``, on a sample.
 
-    If σ is not ``known``, a better one may be found; if ``plain``, linear filters alone, and no
-    second mixture. ``strong`` noise asks for more caution.
+    Of ``filters``, the first ones are ``LINEAR``; there is no second mixture unless they are
+    ``ALL``. If σ is not ``known``, a better one may be found. Mixtures are chosen as if σ were
+    ``caution`` times as large; normals are those after ``evening``. Noise of a ``colour`` is probed
+    by noise of the same: Stein's estimate with its covariance.
     """
-    caution = _CAUTION_IF_STRONG if strong else _CAUTION
+    plain = filters != ALL
     mesh = sample.mesh
-    bench = Bench.of(mesh)
-    n = mesh.n_vertices
-    random = np.random.default_rng(_SEED)
-    probes = [
-        _PROBE * sigma * random.choice([-1.0, 1.0], n)[:, None] * normals
-        for _ in range(min(_MOST_PROBES, math.ceil(_PROBED / n)))
-    ]
+    bench = Bench.of(mesh, evening)
+    probes = [_PROBE * sigma * along[:, None] * normals for along in _directions(bench, colour)]
     others = [mesh.with_vertices(mesh.vertices + probe) for probe in probes]
-    filters: tuple[Filter, ...] = LINEAR if plain else (*LINEAR, *IN_PARTS, *OF_NORMALS)
     here = filtered(mesh, bench, filters)
     there = [filtered(other, bench, filters) for other in others]
     trial = _Trial(mesh, sample.core, probes, (_PROBE * sigma) ** 2, caution)
     k = sum(not one.by_length for one in LINEAR)
-    level = trial.level(here[1:k], [moved[1:k] for moved in there], sigma)
-    sure = _SURE if level is None else _SURE_ON_SMOOTH
+    near = _NEAR if colour is None else _NEAR_IF_COLOURED
+    level = trial.level(here[1:k], [moved[1:k] for moved in there], sigma, near)
+    sure = _SURE if level is None else math.inf if plain else _SURE_ON_SMOOTH
+    if level is not None:  # what is left of the noise is all there is of the error
+        trial = replace(trial, caution=max(caution, CAUTION))
     sigma = sigma if known or level is None else level
     first, risk = trial.mixture(here, there, sigma, len(LINEAR), sure)
     if plain:
@@ -165,6 +173,18 @@ def choose(
     there = [_seconds(one, bench, _mixed(first, x)) for one, x in zip(others, there, strict=True)]
     second, risk = trial.mixture(here, there, sigma, 2, sure)
     return Choice(sigma, filters, first, second, risk)
+
+
+def _directions(bench: Bench, colour: NoiseColour | None) -> Floats:
+    """Return random changes along the normals, of the mean square 1 and of the colour."""
+    n = len(bench.normals)
+    random = np.random.default_rng(_SEED)
+    count = min(_MOST_PROBES, math.ceil(_PROBED / n))
+    white = np.stack([random.choice([-1.0, 1.0], n) for _ in range(count)])
+    if colour is None:
+        return white
+    noise = colour.noise(bench.rows, white.T).T
+    return np.asarray(noise / np.sqrt((noise**2).mean(axis=1, keepdims=True)))
 
 
 def _seconds(mesh: Mesh, bench: Bench, x: Floats) -> list[Floats]:
@@ -189,9 +209,10 @@ def apply(mesh: Mesh, bench: Bench, choice: Choice) -> Floats:
 
 
 def _mixed(weights: Floats, positions: list[Floats]) -> Floats:
-    total = np.zeros_like(positions[0])
-    for weight, x in zip(weights, positions, strict=True):
-        total += weight * x
+    """Return Σ w x for weights that add to 1; what all leave in its place stays there exactly."""
+    total = positions[0].copy()
+    for weight, x in zip(weights[1:], positions[1:], strict=True):
+        total += weight * (x - positions[0])
     return total
 
 

@@ -7,21 +7,27 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from beltrami._arrays import Integers
+from beltrami._arrays import Floats, Integers
 from beltrami._carded import Carded
 from beltrami._kinds import checked
 from beltrami._progress import Progress
-from beltrami.diffusion.candidates import SECOND, Bench
+from beltrami.diffusion.candidates import EVENING_IF_STRONG, SECOND, Bench
 from beltrami.diffusion.choice import (
+    ALL,
     ALONG_NORMALS,
     AS_IT_IS,
+    CAUTION,
+    CAUTION_IF_STRONG,
+    LOW_PASSES,
     Choice,
     apply,
     choose,
     named,
 )
+from beltrami.diffusion.colour import NoiseColour, noise_colour, with_colour
+from beltrami.diffusion.linear_filters import LINEAR, equal_rows
 from beltrami.diffusion.noise import STRONG, NoiseLevel, noise_level
-from beltrami.diffusion.patches import components_of, part_of, sample_of
+from beltrami.diffusion.patches import Sample, components_of, part_of, sample_of
 from beltrami.diffusion.vertex_update import require_agreeing_normals
 from beltrami.errors import BeltramiError, check_name
 from beltrami.mesh.door import require_mesh
@@ -33,6 +39,7 @@ _LEAST_SAMPLE = 8_000  # of one part
 _PARTS = 8  # at most, with a choice of their own
 _OWN = 1_000  # vertices of a component below which it has no choice of its own
 _NO_VOLUME = 1e-12  # of the power 3/2 of the area
+_ENOUGH = 1_500  # vertices, from which noise may be told from creases that are everywhere
 _SMALL = 200  # vertices below which only linear filters are trusted
 
 
@@ -82,7 +89,7 @@ class Denoised(Carded):
     volume_change
         Relative; NaN if the mesh has a boundary, or no volume.
     warnings
-        Why the result may be worse than predicted; only linear filters were used there.
+        Why the result may be worse than predicted; only low passes were used there.
     """
 
     mesh: Mesh
@@ -165,8 +172,9 @@ def denoise(
     Returns
     -------
     Denoised: the mesh first. If the noise does not look white and Gaussian, or is very strong, it
-    says so in ``warnings``, and only linear filters are used: the estimate of their error needs no
-    Gaussian. Then the level is the root mean square, outliers included.
+    says so in ``warnings``, and only low passes are used, whose estimate of the error needs no
+    Gaussian. Then the level is the root mean square, outliers included; of noise that is not white
+    (``noise_colour``) it is that of all frequencies, and the estimate has its covariance.
 
     Raises
     ------
@@ -184,10 +192,10 @@ def denoise(
     one or two small random changes of the input, from a fixed seed (Ramani, Blu and Unser 2008),
     so the same mesh gives the same result. The mixtures are chosen as if σ were 15 % larger: to
     take some shape for noise costs little, but what is left of the noise spoils the normals; and
-    the chosen mixture fits the noise it was chosen on. Where the noise is very strong it is 70 %,
-    because the normals, along which it is looked for, are off. The ``predicted_error`` is for σ as
-    it is, and at least σ times the divergence for each vertex, the least that a linear filter
-    leaves.
+    the chosen mixture fits the noise it was chosen on. Where the noise is very strong and the shape
+    has details it is 5 %, and the normals, along which the noise is looked for, are those of a mesh
+    that is evened more. The ``predicted_error`` is for σ as it is, and at least σ times the
+    divergence for each vertex, the least that a linear filter leaves.
     Filters of normals, and the second mixture, are left out where what they gain may be chance.
 
     Components of at least 1000 vertices, the eight largest, have a noise level and mixtures of
@@ -220,8 +228,7 @@ def denoise(
     for i, vertices in enumerate(components):
         part = mesh if len(components) == 1 else part_of(mesh, vertices)
         if part.n_faces:
-            bench = Bench.of(part)
-            found, choice = _choice(part, bench, noise, method == "linear", size)
+            found, choice, bench = _choice(part, noise, method == "linear", size)
             if progress is not None:
                 progress(2 * i + 1, 2 * len(components))
             moved[vertices] = apply(part, bench, choice)
@@ -240,21 +247,45 @@ def _volume_change(before: Mesh, after: Mesh) -> float:
 
 
 def _choice(
-    mesh: Mesh, bench: Bench, noise: float | None, linear: bool, size: int
-) -> tuple[NoiseLevel, Choice]:
+    mesh: Mesh, noise: float | None, linear: bool, size: int
+) -> tuple[NoiseLevel, Choice, Bench]:
     """Measure the noise, and choose on a sample of about ``size`` faces; safely, if it is odd."""
     edge = float(mesh.edge_lengths.mean())
+    caution, bench = CAUTION, Bench.of(mesh)
     found = noise_level(mesh.topology.adjacency, mesh.vertices, edge, bench.normals)
+    if found.relative > STRONG:
+        caution, bench = CAUTION_IF_STRONG, Bench.of(mesh, EVENING_IF_STRONG)
+        found = noise_level(mesh.topology.adjacency, mesh.vertices, edge, bench.normals)
+    sample = sample_of(mesh, size)
+    normals = bench.normals[sample.vertices]
+    colour = _colour(sample, normals, edge)
+    if colour is not None:
+        found = with_colour(found, colour, equal_rows(sample.mesh))
     odd = bool(found.warnings)
     sigma = noise if noise is not None else found.spread if odd else found.sigma
     if sigma == 0:
-        return found, Choice(0.0, (), np.zeros(0), np.zeros(0), 0.0)
-    sample = sample_of(mesh, size)
-    plain = linear or odd or mesh.n_vertices < _SMALL
-    known = noise is not None or odd
-    normals = bench.normals[sample.vertices]
-    strong = found.relative > STRONG
-    return found, choose(sample, float(sigma), normals, known=known, plain=plain, strong=strong)
+        return found, Choice(0.0, (), np.zeros(0), np.zeros(0), 0.0), bench
+    few = linear or mesh.n_vertices < _SMALL
+    filters = LINEAR if few else LOW_PASSES if odd else ALL
+    choice = choose(
+        sample,
+        float(sigma),
+        normals,
+        filters,
+        known=noise is not None or (odd and colour is None),
+        caution=caution,
+        evening=bench.evening,
+        colour=colour,
+    )
+    return found, choice, bench
+
+
+def _colour(sample: Sample, normals: Floats, edge: float) -> NoiseColour | None:
+    """Return the colour of the noise, if it has one."""
+    if sample.mesh.n_vertices < _ENOUGH:
+        return None
+    found = noise_colour(equal_rows(sample.mesh), sample.mesh.vertices, normals, sample.core)
+    return found if found.is_coloured(edge) else None
 
 
 def _told(vertices: Integers, found: NoiseLevel, choice: Choice) -> DenoisedPart:

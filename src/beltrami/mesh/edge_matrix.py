@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csr_array
 
-from beltrami._arrays import Floats, Integers
+from beltrami._arrays import Floats, Integers, unwritten
 from beltrami._jit import kernel, unsigned
 
 
@@ -49,7 +49,7 @@ def _filled(
     """Return the matrix; its diagonal is stored where one of n values is given."""
     indptr = np.zeros(n + 1, np.int32)
     size = 2 * len(edges) + len(diagonal)
-    indices, data = np.empty(size, np.int32), np.empty(size)
+    indices, data = unwritten(size, np.int32), unwritten(size, np.float64)
     pattern = (unsigned(indptr), unsigned(indices))
     _fill(unsigned(edges), values, diagonal, laplacian, *pattern, data)
     matrix = csr_array((data, indices, indptr), shape=(n, n))

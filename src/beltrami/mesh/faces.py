@@ -30,8 +30,9 @@ def checked_faces(faces: ArrayLike, n_vertices: int | None) -> tuple[Integers, i
             remedy="Triangulate polygons; read_mesh does it for files.",
         )
     array = frozen(given, np.int64)
-    n = int(array.max(initial=-1)) + 1
-    if n_vertices is not None:
+    if n_vertices is None:
+        n = int(array.max(initial=-1)) + 1
+    else:
         n = whole("the number of vertices", n_vertices, least=0)
     if len(array) and unsigned(array).max() >= n:  # a negative index is a huge unsigned one
         raise MeshError(

@@ -7,9 +7,10 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import Integers, read_only
+from beltrami._arrays import Integers, read_only, unwritten
 from beltrami._jit import kernel, unsigned
 from beltrami.errors import MeshError
+from beltrami.mesh.numbering import BEHIND, number_edges
 
 BOUNDARY = -1  # the twin of a side that no other face shares
 NOT_MANIFOLD = -2  # the twin of a side that more than two faces share
@@ -81,142 +82,89 @@ def pair_sides(faces: Integers, n: int) -> HalfEdges:
     return paired
 
 
-# The sides are sorted by (smaller vertex, larger vertex) with two stable counting sorts, the
-# larger first: no comparison, and hardly a branch that the processor guesses wrong. A side is
-# packed into one integer: the vertex that still has to be sorted by (after that, the other one)
-# times 2³², plus twice its half-edge, plus 1 if it runs from the smaller to the larger vertex.
-# First touches of memory are dear, and the results have room for the sides: once sorted by the
-# larger vertex they lie where face_edges and twins will be, then where the edges will be.
+# The sides are counted and filled into the buckets of their smaller vertices, without a comparison
+# that the processor could guess wrong; ``numbering`` pairs them there. First touches of memory are
+# dear, and the sides lie where the edges will be.
 
 
 def _paired(corners: Any, n: int, room: int) -> HalfEdges | None:
     """Pair the sides; None if an edge would be written over sides that are not yet read.
 
-    An edge is as long as two sides. The sorted sides begin ``room`` of them behind the edges,
-    which is enough if no more edges have one side only.
+    An edge is as long as two sides. The sides begin ``room`` of them behind the edges, which is
+    enough if no more edges have one side only.
     """
     m = len(corners)
-    by_low, by_high = np.zeros((2, n), np.uint32)
-    total = int(_count_sides(corners, by_low, by_high))
+    scratch = unwritten(3 * n, np.uint32)
+    sizes, cursors = scratch[:n], scratch[n:].reshape(n, 2)
+    total = int(_count_sides(corners, sizes, cursors))
     room = min(room, total)
-    edges = np.empty((total, 2), np.int64)  # the pages beyond the last edge are never touched
-    ends = unsigned(edges).reshape(-1)
-    ordered = ends[room : room + total]
-    of_sides = np.empty((2, m, 3), np.int32)
-    _sort_sides(corners, by_low, by_high, of_sides.reshape(-1).view(np.uint64), ordered)
+    ends = unwritten(room + total + BEHIND, np.int64)
+    words = unsigned(ends)
+    sides = words[room:]
+    _fill_buckets(corners, cursors, sides)
+    of_sides = unwritten((2, m, 3), np.int32)
     complete = total == 3 * m
     if not complete:  # faces that name a vertex twice have no sides
         of_sides[0], of_sides[1] = -1, BOUNDARY
     face_edges, twins = of_sides
-    p, boundary, crowded, disoriented = _number_edges(
-        ordered, by_low, room, ends, face_edges.ravel(), twins.ravel()
+    p, boundary, crowded, disoriented = number_edges(
+        sides, cursors, sizes, room, words, face_edges.ravel(), twins.ravel()
     )
     if p < 0:
         return None
-    arrays = (read_only(edges[:p]), read_only(face_edges), read_only(twins))
+    edges = ends[: 2 * p].reshape(p, 2)
+    arrays = (read_only(edges), read_only(face_edges), read_only(twins))
     return HalfEdges(*arrays, int(boundary), int(crowded), int(disoriented), complete)
 
 
 @kernel
-def _count_sides(faces: Any, by_low: Any, by_high: Any) -> Any:
-    """Count the sides by smaller and by larger vertex, then turn the counts into starts."""
+def _count_sides(faces: Any, sizes: Any, cursors: Any) -> Any:
+    """Count the sides by smaller vertex; return their number.
+
+    ``cursors[v]`` are set to the first and the last place of the bucket of v.
+    """
     one = np.uint64(1)
     m = np.uint64(faces.shape[0])
     f = np.uint64(0)
+    sizes[:] = 0
     while f < m:
         i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
         if i != j and j != k and k != i:
-            by_low[min(i, j)] += 1
-            by_low[min(j, k)] += 1
-            by_low[min(k, i)] += 1
-            by_high[max(i, j)] += 1
-            by_high[max(j, k)] += 1
-            by_high[max(k, i)] += 1
+            sizes[min(i, j)] += 1
+            sizes[min(j, k)] += 1
+            sizes[min(k, i)] += 1
         f += one
-    low = high = 0
-    for v in range(by_low.size):
-        of_low, of_high = by_low[v], by_high[v]
-        by_low[v], by_high[v] = low, high
-        low += of_low
-        high += of_high
-    return low
+    total = 0
+    for v in range(sizes.size):
+        cursors[v, 0] = total
+        total += sizes[v]
+        cursors[v, 1] = total - 1
+    return total
 
 
 @kernel
-def _sort_sides(faces: Any, by_low: Any, by_high: Any, sides: Any, ordered: Any) -> None:
-    """Sort the sides; on return ``by_low[v]`` is the end of the bucket of v."""
-    one, two, four = np.uint64(1), np.uint64(2), np.uint64(4)
-    six, half = np.uint64(6), np.uint64(32)
+def _fill_buckets(faces: Any, cursors: Any, sides: Any) -> None:
+    """Fill the buckets: from the front with sides that run upwards, from the back with others.
+
+    On return ``cursors[v, 0]`` is where the upward sides of v end.
+    """
+    one, three = np.uint64(1), np.uint64(3)
     m = np.uint64(faces.shape[0])
     f = h = np.uint64(0)
     while f < m:
         i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
         if i != j and j != k and k != i:
-            high = max(j, k)
-            sides[np.uint64(by_high[high])] = (min(j, k) << half) | h | np.uint64(j < k)
-            by_high[high] += 1
-            high = max(k, i)
-            sides[np.uint64(by_high[high])] = (min(k, i) << half) | (h + two) | np.uint64(k < i)
-            by_high[high] += 1
-            high = max(i, j)
-            sides[np.uint64(by_high[high])] = (min(i, j) << half) | (h + four) | np.uint64(i < j)
-            by_high[high] += 1
-        h += six
+            _put(j, k, h, cursors, sides)
+            _put(k, i, h + one, cursors, sides)
+            _put(i, j, h + one + one, cursors, sides)
+        h += three
         f += one
-    n = np.uint64(by_high.size)
-    high = q = np.uint64(0)
-    while high < n:
-        end = np.uint64(by_high[high])
-        while q < end:
-            low = sides[q] >> half
-            ordered[np.uint64(by_low[low])] = (high << half) | (sides[q] & np.uint64(0xFFFFFFFF))
-            by_low[low] += 1
-            q += one
-        high += one
 
 
 @kernel
-def _number_edges(
-    ordered: Any, by_low: Any, room: Any, ends: Any, face_edges: Any, twins: Any
-) -> Any:
-    """Run through the sorted sides: neighbours with the same ends are the sides of one edge.
-
-    Returns -1 as the number of edges if their ends would come to lie on sides not yet read.
-    """
-    one, half, code = np.uint64(1), np.uint64(32), np.uint64(0xFFFFFFFF)
-    n, free = np.uint64(by_low.size), np.uint64(room)
-    low = p = q = np.uint64(0)
-    boundary = crowded = disoriented = 0
-    while low < n:
-        end = np.uint64(by_low[low])
-        while q < end:
-            high = ordered[q] >> half
-            first = ordered[q] & code
-            face_edges[first >> one] = p
-            begin = q
-            q += one
-            if q < end and ordered[q] >> half == high:
-                second = ordered[q] & code
-                face_edges[second >> one] = p
-                twins[first >> one] = second >> one
-                twins[second >> one] = first >> one
-                q += one
-                if q < end and ordered[q] >> half == high:
-                    crowded += 1
-                    while q < end and ordered[q] >> half == high:
-                        face_edges[(ordered[q] & code) >> one] = p
-                        q += one
-                    for s in range(begin, q):
-                        twins[(ordered[s] & code) >> one] = -2
-                else:
-                    disoriented += int((first ^ second ^ one) & one)
-            else:
-                boundary += 1
-                twins[first >> one] = -1
-            if p + p + one >= free + q:
-                return -1, 0, 0, 0
-            ends[p + p] = low
-            ends[p + p + one] = high
-            p += one
-        low += one
-    return np.int64(p), boundary, crowded, disoriented
+def _put(a: Any, b: Any, h: Any, cursors: Any, sides: Any) -> None:
+    """Put the half-edge h from a to b into its bucket."""
+    low, down = min(a, b), np.uint64(b < a)
+    place = cursors[low, down]
+    sides[np.uint64(place)] = (max(a, b) << np.uint64(32)) | h
+    cursors[low, down] = place + np.uint32(np.uint64(1) - down - down)

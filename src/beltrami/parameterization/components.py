@@ -12,20 +12,18 @@ from beltrami.mesh.cut import Cut, cut_along, edges_between, shortest_paths
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.weights import Weigher, edge_weights
 from beltrami.parameterization.boundary import Curve, place_boundary, refuse_dividing_edges
+from beltrami.parameterization.coarse_to_fine import disk_map
 from beltrami.parameterization.conformal import least_squares_conformal, spectral_conformal
 from beltrami.parameterization.harmonic import is_symmetric, solve_harmonic
 from beltrami.parameterization.layout import part_of
 from beltrami.parameterization.relaxation import relax
-from beltrami.parameterization.reweighting import Step, assess, reweighted
+from beltrami.parameterization.reweighting import Step, assess
 from beltrami.parameterization.schnyder import draw
 
 CONFORMAL = ("least_squares_conformal", "spectral_conformal")
-_STEPS = 30  # of reweighting, at most
-_ENOUGH = 30.0  # energy from which Newton's steps are the faster ones
 _SETTLED = 3e-3  # decrease in a step at which the relaxation inside a fixed boundary stops
 _TO_THE_LAST = 1e-4  # likewise, with a free boundary
 _ROUGHLY = 1e-2  # likewise, as long as maps are compared
-_BAD = 50.0  # symmetric Dirichlet energy above which other weights are tried
 _RELAXATIONS = 200  # steps of it, at most
 _FROM_DRAWING = 300  # steps of relaxation that make a map of a drawing
 _AT_REST = 1e-5  # decrease in a step at which these stop
@@ -115,20 +113,13 @@ def _solved(current: Cut, part: Mesh, number: Integers, asked: Request) -> Step:
     )
     if not (isinstance(asked.boundary, str) and asked.boundary == "circle"):
         refuse_dividing_edges(part, loop, placed, current.vertex_map[number])
-    steps: list[Step] = []
-    for kind in asked.weights:
-        W, symmetric = edge_weights(part, kind), is_symmetric(kind)
-        if asked.method == "tutte":
-            uv = solve_harmonic(W, loop, placed, part.vertices, symmetric=symmetric)
-            steps.append(assess(part, uv))
-        else:
-            start, _ = reweighted(
-                part, W, loop, placed, _STEPS, enough=_ENOUGH, symmetric=symmetric
-            )
-            steps.append(_relaxed(part, start, asked) if not start.flips else start)
-        if steps[-1].rank <= (0, _BAD):
-            break
-    return min(steps, key=lambda step: step.rank)
+    if asked.method == "tutte":
+        W, symmetric = edge_weights(part, asked.weights[0]), is_symmetric(asked.weights[0])
+        uv = solve_harmonic(W, loop, placed, part.vertices, symmetric=symmetric)
+        return assess(part, uv)
+    free = asked.method == "free"
+    settled = (_ROUGHLY if asked.compares else _TO_THE_LAST) if free else _SETTLED
+    return disk_map(part, asked.weights, loop, placed, free=free, settled=settled)
 
 
 def _held(number: Integers, corners: Integers | None) -> Integers | None:
@@ -141,14 +132,6 @@ def _held(number: Integers, corners: Integers | None) -> Integers | None:
             "the vertices that are held belong to another component", vertices=corners[outside]
         )
     return np.searchsorted(number, corners)
-
-
-def _relaxed(part: Mesh, start: Step, asked: Request) -> Step:
-    """Lower the energy, with a free boundary or inside the one that was asked for."""
-    if asked.method == "free" and asked.compares:
-        return assess(part, relax(part, start.uv, _RELAXATIONS, None, _ROUGHLY)[0])
-    held = None if asked.method == "free" else part.topology.on_boundary
-    return assess(part, settle(part, start.uv, held))
 
 
 def settle(part: Mesh, uv: Floats, held: Booleans | None) -> Floats:

@@ -60,7 +60,8 @@ def parameterize(
     method
         ``"tutte"``: one solve with the weights as they are. ``"auto"``: weights are corrected
         while the map is bad (see ``reweighted``), then the symmetric Dirichlet energy is lowered
-        as far as it falls without a fold, the boundary held (see ``relax``). ``"free"``: the
+        as far as it falls without a fold, the boundary held (see ``relax``); of large disks that
+        of a coarser mesh comes first (see ``disk_map``). ``"free"``: the
         boundary is let go, and does not cross itself: the least distortion, in the unit of length
         of the mesh. ``"least_squares_conformal"`` and ``"spectral_conformal"``: angles are
         kept as far as a free boundary allows, areas are not, and the boundary may overlap (see
@@ -70,7 +71,8 @@ def parameterize(
         positive. ``"cotangent"`` is negative where two angles add to more than π, and may fold
         (E90). By default ``"mean_value"`` for the method ``"tutte"``; else ``"clamped"``, and
         where that folds or ends at an energy above 50 the best of it, ``"mean_value"`` and
-        ``"combinatorial"``.
+        ``"combinatorial"``. Started from mean values, disks get maps that are as good, but long
+        tubes worse ones: ``benchmarks.mapping_suite`` has a row for it.
     boundary
         ``"circle"``, ``"square"``, a number of sides or the corners of a convex polygon: see
         ``place_boundary``.
@@ -122,7 +124,8 @@ def parameterize(
     -----
     Tutte's maps take one sparse factorisation for both coordinates. Symmetric weights go to
     Cholesky, several times faster than LU, which those of the mean value need. Conformal maps,
-    and each step of relaxation, take one of twice as many unknowns.
+    and each step of relaxation, take one of twice as many unknowns; ``"auto"`` takes about ten of
+    them on large meshes, and more on coarser ones.
 
     Examples
     --------

@@ -1,0 +1,167 @@
+"""The colour of noise: how strong it is in bands of frequencies, and noise alike."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+from numpy.polynomial import Chebyshev
+
+from beltrami._arrays import Booleans, Floats
+from beltrami.diffusion.noise import NoiseLevel
+from beltrami.diffusion.windowed_sinc import filter_rows
+from beltrami.solvers.locality import LocalRows
+
+# gains k^a (2 - k)^b, largest at 2a/(a + b): polynomials of W̃, so that creases stay where they are
+_EXPONENTS = ((3, 8), (4, 7), (4, 4), (5, 3), (6, 0))
+_PEAKS = tuple(2 * a / (a + b) for a, b in _EXPONENTS)
+_LOW, _MIDDLE, _HIGH, _TOP = 0, 1, 2, 4  # of these bands
+_AREA = 12.0  # time of the heat that takes local means: radius of some 3.5 edges
+_QUIET, _ROUGH = 0.1, 0.9  # shares of the vertices where there is less
+_CLIP = 9.0  # variances beyond which squares do not count
+_HALF_SQUARE = 0.45493642311957283  # median of the square of a standard normal variable
+_EXCESSES = {_LOW: 0.55, _MIDDLE: 0.35}  # logarithms: see is_coloured
+_UNEVEN = 1.5  # where there is shape all over
+_DIP = 0.8
+_PEAKED = 5.0  # kurtosis of what is not Gaussian
+_FAINT = 0.12  # mean edges, below which it may be the texture of the shape
+_FLATTEST, _STEEPEST = 1.0, 6.0  # powers of 1 - k/2
+_SHAPE = 1.5  # power of what is uneven that is shape
+_CHANCE = 0.12  # by which noise alone may be uneven
+_WHITE = 6  # columns of white noise to compare with
+_SEED = 7
+_DEGREE = 40
+
+
+@dataclass(frozen=True)
+class NoiseColour:
+    """Levels of the noise in five bands of the frequencies of Id - W̃, the lowest first.
+
+    Attributes
+    ----------
+    levels
+        Standard deviation of the white noise that is as strong in the band, where the mesh is
+        quiet: the tenth of the vertices with the least of it around them.
+    uneven
+        How much stronger the band is where there is much of it than where there is little, over
+        what white noise has there: 1 where there is noise alone, more where there is shape.
+    kurtosis
+        Of the second band; 3 if the noise is Gaussian, larger if it has spikes.
+    """
+
+    levels: tuple[float, ...]
+    uneven: tuple[float, ...]
+    kurtosis: float
+
+    def is_coloured(self, edge_length: float) -> bool:
+        """Whether the noise is correlated: even, but stronger in the middle than at the top.
+
+        What is left of a shape is stronger in the middle too, but not everywhere: the more uneven
+        the band, the more it may have. A shape never makes a band weaker than the next.
+        """
+        top, least = self.levels[_TOP], _FAINT * edge_length
+        if self.kurtosis > _PEAKED or not min(self.levels) > 0:
+            return False
+        for band, log in _EXCESSES.items():
+            more = max(self.uneven[band] - 1, 0.0)
+            excess = math.exp(log + more + 2 * more**2)
+            if self.uneven[band] < _UNEVEN and self.levels[band] > max(excess * top, least):
+                return True
+        return top > least / 2 and self.levels[_HIGH] < _DIP * top
+
+    def amplitude(self, k: Floats) -> Floats:
+        """Return the standard deviation at the frequencies k, between bands in a straight line.
+
+        What is uneven is taken for shape. Below the lowest band it grows as the power of 1 - k/2
+        that fits the lowest two: that of white noise after rounds of averaging.
+        """
+        uneven = np.array(self.uneven)
+        of_noise = np.sqrt(np.clip(uneven, 1, 1 + _CHANCE))  # from a quiet place to the middle
+        levels = of_noise * np.array(self.levels) / np.maximum(uneven - _CHANCE, 1) ** _SHAPE
+        rest = 1 - np.array(_PEAKS[:2]) / 2
+        power = np.log(levels[0] / levels[1]) / np.log(rest[0] / rest[1])
+        power = min(max(float(power), _FLATTEST), _STEEPEST)
+        below = levels[0] * ((1 - np.minimum(k, _PEAKS[0]) / 2) / rest[0]) ** power
+        return np.asarray(np.where(k < _PEAKS[0], below, np.interp(k, _PEAKS, levels)))
+
+    def noise(self, rows: LocalRows, white: Floats) -> Floats:
+        """Return noise (n, d) of this colour from white noise of variance 1."""
+        series = Chebyshev.interpolate(lambda x: self.amplitude(1 - x), _DEGREE)
+        return filter_rows(rows, white, np.asarray(series.coef, np.float64))
+
+
+def noise_colour(rows: LocalRows, x: Floats, normals: Floats, core: Booleans) -> NoiseColour:
+    r"""Measure it along the normals of a mesh, on the vertices of the core.
+
+    Each band is compared with white noise in the same band, vertex by vertex, by means over some
+    40 neighbours; so the degrees of vertices and the borders do not matter. Values of more than
+    three standard deviations are cut off.
+
+    Parameters
+    ----------
+    rows
+        Of W̃.
+    x, normals
+        (n, 3).
+
+    Notes
+    -----
+    Cost: O(n), some 400 products with W̃.
+    """
+    white = np.random.default_rng(_SEED).standard_normal((len(x), _WHITE))
+    levels, uneven, kurtosis = [], [], 3.0
+    for i in range(len(_EXPONENTS)):
+        series = np.array(_series(i))
+        found = np.einsum("ij,ij->i", filter_rows(rows, x, series), normals)
+        alike = filter_rows(rows, white, series)
+        gain = np.maximum(_around(rows, (alike**2).mean(axis=1)), np.finfo(float).tiny)
+        (quiet, rough), (white_quiet, white_rough) = (
+            np.sqrt(np.quantile(_around(rows, _cut(f**2 / gain))[core], (_QUIET, _ROUGH)))
+            for f in (found, alike[:, 0])
+        )
+        levels.append(float(quiet / white_quiet) if white_quiet > 0 else 0.0)
+        if i == _MIDDLE:
+            squares = (found**2 / gain)[core]
+            mean = float(squares.mean())
+            kurtosis = float(np.mean((squares / mean) ** 2)) if mean > 0 else 3.0
+        spread = quiet * white_rough
+        uneven.append(float(rough * white_quiet / spread) if spread > 0 else np.inf)
+    return NoiseColour(tuple(levels), tuple(uneven), kurtosis)
+
+
+def with_colour(found: NoiseLevel, colour: NoiseColour, rows: LocalRows) -> NoiseLevel:
+    """Return the level of noise of the colour, of all its frequencies, and say that it has one."""
+    white = np.random.default_rng(_SEED).standard_normal((len(rows.order), 1))
+    sigma = float(np.sqrt((colour.noise(rows, white) ** 2).mean()))
+    more = colour.levels[_MIDDLE] / colour.levels[_TOP]
+    text = (
+        "the noise is not white: neighbours are alike (at middle frequencies there is "
+        f"{more:.1f} times as much as at high ones)"
+    )
+    return replace(found, sigma=sigma, spread=sigma, warnings=(*found.warnings, text))
+
+
+def _cut(squares: Floats) -> Floats:
+    return np.minimum(squares, _CLIP * np.median(squares) / _HALF_SQUARE)
+
+
+def _around(rows: LocalRows, values: Floats) -> Floats:
+    heat = np.array(_heat())
+    return np.maximum(filter_rows(rows, values[:, None], heat)[:, 0], 0.0)
+
+
+@cache
+def _series(i: int) -> tuple[float, ...]:
+    a, b = _EXPONENTS[i]
+    peak = _PEAKS[i]
+    fall = (2 - peak) or 1.0
+    series = Chebyshev.interpolate(lambda x: ((1 - x) / peak) ** a * ((1 + x) / fall) ** b, a + b)
+    return tuple(np.asarray(series.coef, np.float64).tolist())
+
+
+@cache
+def _heat() -> tuple[float, ...]:
+    series = Chebyshev.interpolate(lambda x: np.exp(_AREA * (x - 1)), _DEGREE)
+    return tuple(np.asarray(series.coef, np.float64).tolist())

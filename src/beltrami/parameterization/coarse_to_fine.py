@@ -1,0 +1,87 @@
+"""Large disks: a map of a coarser mesh first, of which the finer ones get theirs."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from beltrami._arrays import Floats, Integers
+from beltrami.mesh.mesh import Mesh
+from beltrami.operators.weights import Weigher, edge_weights
+from beltrami.parameterization.harmonic import is_symmetric
+from beltrami.parameterization.insertion import inserted
+from beltrami.parameterization.isometric_energy import isometric_energy
+from beltrami.parameterization.relaxation import best_scale, relax
+from beltrami.parameterization.reweighting import Step, assess, reweighted
+from beltrami.parameterization.stars import stars
+from beltrami.parameterization.thinning import thinned
+
+_STEPS = 30  # of reweighting, at most
+_ENOUGH = 30.0  # energy from which Newton's steps are the faster ones
+_BAD = 50.0  # symmetric Dirichlet energy above which other weights are tried
+_RELAXATIONS = 200  # steps of it, at most
+_LARGE = 5000  # vertices from which a coarser mesh comes first
+_COARSER = 4  # times fewer vertices
+_HARDLY = 1.5  # likewise: if no more can go, it does not pay
+_SWEEPS = 10  # over a map that is made of a coarser one
+_PAYS = 4e-3  # decrease in a step that is worth it, where a coarser map has gone most of the way
+
+
+def disk_map(
+    mesh: Mesh,
+    weights: tuple[str | Weigher, ...],
+    loop: Integers,
+    placed: Floats,
+    *,
+    free: bool,
+    settled: float,
+) -> Step:
+    """Map a disk by reweighting and relaxation; the next weights only where the map is bad.
+
+    From 5,000 vertices on, the map of a mesh with a quarter of them comes first, and of that in
+    the same way; the vertices that it lacks are inserted without a fold, and the map is relaxed.
+    Iterations are cheap there, where the way is long. Weights that are no name of weights may not
+    be for another mesh: there, and where an insertion folds, the mesh is mapped as it is. So it is
+    with a free boundary, which comes to rest elsewhere if it is that of a coarser mesh first.
+    """
+    named = all(isinstance(kind, str) for kind in weights)
+    if named and not free and mesh.n_vertices >= _LARGE:
+        step = _from_coarser(mesh, weights, loop, placed, settled)
+        if step is not None:
+            return step
+    steps: list[Step] = []
+    for kind in weights:
+        W, symmetric = edge_weights(mesh, kind), is_symmetric(kind)
+        start, _ = reweighted(mesh, W, loop, placed, _STEPS, enough=_ENOUGH, symmetric=symmetric)
+        steps.append(start if start.flips else _relaxed(mesh, start.uv, free, settled))
+        if steps[-1].rank <= (0, _BAD):
+            break
+    return min(steps, key=lambda step: step.rank)
+
+
+def _relaxed(mesh: Mesh, uv: Floats, free: bool, settled: float) -> Step:
+    held = None if free else mesh.topology.on_boundary
+    return assess(mesh, relax(mesh, uv, _RELAXATIONS, held, settled)[0])
+
+
+def _from_coarser(
+    mesh: Mesh,
+    weights: tuple[str | Weigher, ...],
+    loop: Integers,
+    placed: Floats,
+    settled: float,
+) -> Step | None:
+    """Map a coarser mesh, then this one from there; None if that is not possible."""
+    coarse = thinned(mesh, mesh.n_vertices // _COARSER)
+    if _HARDLY * coarse.mesh.n_vertices > mesh.n_vertices:
+        return None
+    number = np.searchsorted(coarse.kept, loop)
+    found = disk_map(coarse.mesh, weights, number, placed, free=False, settled=settled)
+    if found.flips:
+        return None
+    scale = best_scale(isometric_energy(coarse.mesh).sums(found.uv))
+    uv = inserted(mesh, coarse, found.uv, scale)
+    uv = stars(mesh).swept(uv, scale, _SWEEPS)
+    if assess(mesh, uv).flips:
+        return None
+    step = _relaxed(mesh, uv, False, max(settled, _PAYS))
+    return None if step.flips else step

@@ -1,0 +1,155 @@
+"""The colour of noise: white noise and clean shapes have none, averaged noise has its own."""
+
+import numpy as np
+import pytest
+
+from beltrami.diffusion.candidates import Bench, filtered
+from beltrami.diffusion.colour import NoiseColour, noise_colour, with_colour
+from beltrami.diffusion.denoise import denoise
+from beltrami.diffusion.linear_filters import LINEAR
+from beltrami.diffusion.noise import noise_level
+from beltrami.mesh import shapes
+
+BLOB = shapes.blob(2500)
+TORUS = shapes.torus(80, 40)
+ALL = [BLOB, TORUS, shapes.cube(16), shapes.icosphere(4), shapes.cylinder(60, 30, caps=True),
+       shapes.grid(40, 40, dimension=3)]  # fmt: skip
+PEAKS = np.array([6, 8, 8, 10]) / np.array([11, 11, 8, 8])
+
+
+def moved(truth, noise):
+    """Along the normals, noise in mean edges."""
+    way = truth.edge_lengths.mean() * noise
+    return truth.with_vertices(truth.vertices + way[:, None] * truth.vertex_normals)
+
+
+def white(truth, level, seed=0):
+    return level * np.random.default_rng(seed).normal(size=truth.n_vertices)
+
+
+def averaged(truth, level, own, rounds=1, seed=0):
+    """White noise after rounds of own Id + (1 - own) W̃, which is told the level."""
+    A = truth.topology.adjacency
+    noise = white(truth, 1, seed)
+    for _ in range(rounds):
+        noise = own * noise + (1 - own) * (A @ noise) / A.sum(axis=1)
+    return level * noise / noise.std()
+
+
+def colour_of(mesh):
+    bench = Bench.of(mesh)
+    everywhere = np.ones(mesh.n_vertices, np.bool_)
+    return noise_colour(bench.rows, mesh.vertices, bench.normals, everywhere)
+
+
+def said(mesh):
+    return colour_of(mesh).is_coloured(float(mesh.edge_lengths.mean()))
+
+
+def rms(mesh, truth):
+    return np.sqrt(((mesh.vertices - truth.vertices) ** 2).sum(axis=1).mean())
+
+
+@pytest.mark.parametrize("truth", ALL)
+def test_clean_shapes_and_white_noise_have_no_colour(truth):
+    assert not said(truth)
+    for level in (0.01, 0.05, 0.1, 0.2, 0.35):
+        assert not said(moved(truth, white(truth, level, seed=1)))
+
+
+@pytest.mark.parametrize("truth", ALL)
+def test_averaged_noise_has_one(truth):
+    assert said(moved(truth, averaged(truth, 0.3, own=1 / 7)))
+    assert said(moved(truth, averaged(truth, 0.3, own=0.5)))
+    assert said(moved(truth, averaged(truth, 0.3, own=0.5, rounds=2, seed=3)))
+
+
+def test_spikes_are_no_colour():
+    for truth in (BLOB, TORUS):
+        few = np.random.default_rng(2).random(truth.n_vertices) < 0.1
+        assert not said(moved(truth, few * white(truth, 1.0)))
+
+
+def test_white_noise_is_as_strong_in_all_bands():
+    found = colour_of(moved(TORUS, white(TORUS, 0.2)))
+    edge = TORUS.edge_lengths.mean()
+    assert np.array(found.levels) / edge == pytest.approx([0.2] * 5, rel=0.15)
+    assert found.uneven == pytest.approx([1] * 5, abs=0.25)
+    assert found.kurtosis == pytest.approx(3, abs=0.3)
+
+
+def test_the_amplitude_is_that_of_the_average():
+    """Id/2 + W̃/2 multiplies the frequency k by 1 - k/2."""
+    A, noise = TORUS.topology.adjacency, white(TORUS, 0.3)
+    noise = (noise + (A @ noise) / A.sum(axis=1)) / 2
+    found = colour_of(moved(TORUS, noise))
+    k = np.array([0, 0.1, 0.3, *PEAKS])
+    gain = found.amplitude(k) / TORUS.edge_lengths.mean() / 0.3
+    assert gain == pytest.approx(1 - k / 2, rel=0.2)
+
+
+def test_shape_is_taken_off_where_it_is_uneven():
+    even = NoiseColour((4.0, 3.0, 2.0, 1.0, 1.0), (1.0,) * 5, 3.0)
+    bent = NoiseColour((4.0, 3.0, 2.0, 1.0, 1.0), (1.4, 1.4, 1.0, 1.0, 1.0), 3.0)
+    k = np.array([0.0, *PEAKS])
+    assert even.amplitude(k)[1:] == pytest.approx([4, 3, 2, 1])
+    assert (bent.amplitude(k)[:3] < 0.8 * even.amplitude(k)[:3]).all()
+    assert bent.amplitude(k)[3:] == pytest.approx([2, 1])
+
+
+@pytest.mark.parametrize(
+    ("levels", "uneven", "kurtosis", "expected"),
+    [
+        ((2.0, 2.0, 1.2, 1.0, 1.0), (1.0, 1.0, 1, 1, 1), 3.0, True),
+        ((2.0, 2.0, 1.2, 1.0, 1.0), (1.4, 1.4, 1, 1, 1), 3.0, False),  # may be shape
+        ((9.0, 9.0, 1.2, 1.0, 1.0), (1.6, 1.6, 1, 1, 1), 3.0, False),  # is shape
+        ((2.0, 2.0, 1.2, 1.0, 1.0), (1.0, 1.0, 1, 1, 1), 9.0, False),  # spikes
+        ((1.1, 1.1, 1.0, 1.0, 1.0), (1.0, 1.0, 1, 1, 1), 3.0, False),
+        ((1.1, 1.1, 0.7, 1.0, 1.0), (1.4, 1.4, 1, 1, 1), 3.0, True),  # no shape makes a gap
+        ((2.0, 0.0, 1.0, 1.0, 1.0), (1.0, 9.0, 1, 1, 1), 3.0, False),
+    ],
+)
+def test_what_tells_noise_from_shape(levels, uneven, kurtosis, expected):
+    found = NoiseColour(levels, uneven, kurtosis)
+    assert found.is_coloured(5.0) is expected
+    assert not found.is_coloured(50.0)  # faint
+
+
+@pytest.mark.parametrize("unit", [1e-9, 1e9])
+def test_the_unit_and_the_place_do_not_matter(unit):
+    mesh = moved(BLOB, averaged(BLOB, 0.3, own=1 / 7))
+    found = colour_of(mesh)
+    other = colour_of(mesh.with_vertices(unit * (mesh.vertices + np.array([3, -2, 1]))))
+    assert np.array(other.levels) / unit == pytest.approx(np.array(found.levels), rel=1e-6)
+    assert other.uneven == pytest.approx(found.uneven, rel=1e-6)
+
+
+def test_nothing_moves_on_a_plane():
+    found = colour_of(shapes.grid(20, 20, dimension=3))
+    assert found.levels == pytest.approx([0] * 5, abs=1e-12)
+    assert not found.is_coloured(1.0)
+
+
+class TestDenoise:
+    @pytest.mark.parametrize("truth", [BLOB, TORUS], ids=["blob", "torus"])
+    def test_it_is_said_and_near_the_best_linear_filter(self, truth):
+        mesh = moved(truth, averaged(truth, 0.3, own=1 / 7))
+        found = denoise(mesh)
+        assert any("not white" in text for text in found.warnings)
+        assert found.noise.sigma == pytest.approx(rms(mesh, truth), rel=0.25)
+        bench = Bench.of(mesh)
+        best = min(rms(mesh.with_vertices(x), truth) for x in filtered(mesh, bench, LINEAR))
+        assert rms(found.mesh, truth) < 1.15 * best
+        # for white noise of the same level it would smooth far too little
+        plain = denoise(mesh, noise=noise_level(mesh.topology.adjacency, mesh.vertices,
+                                                directions=bench.normals).sigma)  # fmt: skip
+        assert rms(plain.mesh, truth) > 1.1 * rms(found.mesh, truth)
+
+    def test_the_level_is_that_of_all_frequencies(self):
+        mesh = moved(TORUS, averaged(TORUS, 0.3, own=0.5))
+        bench = Bench.of(mesh)
+        before = noise_level(mesh.topology.adjacency, mesh.vertices, 1.0, bench.normals)
+        after = with_colour(before, colour_of(mesh), bench.rows)
+        assert before.sigma < 0.75 * rms(mesh, TORUS)
+        assert after.sigma == after.spread == pytest.approx(rms(mesh, TORUS), rel=0.15)
+        assert len(after.warnings) == len(before.warnings) + 1
