@@ -107,13 +107,20 @@ def test_components_lie_apart_in_the_proportion_of_their_areas():
 
 def test_other_weights_are_tried_where_the_map_is_bad():
     """A tube so long that cotangents alone fold, and other positive weights do not."""
-    mesh = tube(12, 220)
+    mesh = tube(12, 240)
     assert len(parameterize(mesh, weights="clamped", cut=False, strict=False).flipped) > 0
     psi = parameterize(mesh, cut=False)
     assert psi.is_bijective
     assert "Schnyder" not in psi.method
     alone = parameterize(mesh, weights="mean_value", cut=False).distortion.symmetric_dirichlet
     assert psi.distortion.symmetric_dirichlet <= alone
+
+
+def test_where_the_map_of_a_coarser_mesh_is_singular_there_is_another_way():
+    """Of 7,226 vertices, so that a coarser mesh comes first; its weights leave doubles."""
+    psi = parameterize(tube(12, 600), cut=False)
+    assert psi.is_bijective
+    assert "Schnyder" in psi.method
 
 
 def test_a_seam_saves_what_rounding_folds():

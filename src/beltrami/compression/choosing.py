@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from beltrami._arrays import Floats, Integers
 from beltrami._progress import Progress
 from beltrami.compression.bounded import Bounded
@@ -24,6 +26,7 @@ _SHARE = 20  # of larger ones: one vertex of so many is tried
 _FINE = 1.5  # bytes for each vertex on the grid, above which other modes were never seen to win
 _FACTORS = (1.3, 1.8, 2.5, 3.4, 4.6, 6.2)  # steps of coefficients to try, in bounds of the error
 _START = 2  # the one to begin with
+_FAR = 1e6  # times the size of the mesh: bounds beyond it say no more, and steps stay finite
 _LARGER = 1.35  # times the step that suits the sample: what corrections cost it has yet to learn
 
 
@@ -46,7 +49,9 @@ def encode_wish(x: Floats, faces: Integers, wish: Wish, progress: Progress | Non
     n, near = len(x), surroundings(faces, len(x))
     if wish.max_error is None:
         return _encode_bits(x, near, wish, progress)
-    whole = Bounded(x, near, wish.max_error, wish.effort, wish.terms)
+    reach = _FAR * float(np.ptp(x, axis=0).max(initial=0.0)) if n else 0.0
+    bound = min(wish.max_error, reach) if reach > 0 else wish.max_error
+    whole = Bounded(x, near, bound, wish.effort, wish.terms)
     if wish.mode == "grid":
         return whole.on_grid(progress)
     if wish.mode == "smooth":

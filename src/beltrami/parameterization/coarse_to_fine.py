@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from beltrami._arrays import Floats, Integers
+from beltrami.errors import SingularMatrixError
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.weights import Weigher, edge_weights
 from beltrami.parameterization.harmonic import is_symmetric
@@ -75,7 +76,10 @@ def _from_coarser(
     if _HARDLY * coarse.mesh.n_vertices > mesh.n_vertices:
         return None
     number = np.searchsorted(coarse.kept, loop)
-    found = disk_map(coarse.mesh, weights, number, placed, free=False, settled=settled)
+    try:
+        found = disk_map(coarse.mesh, weights, number, placed, free=False, settled=settled)
+    except SingularMatrixError:  # areas of a map beyond the range of doubles
+        return None
     if found.flips:
         return None
     scale = best_scale(isometric_energy(coarse.mesh).sums(found.uv))
