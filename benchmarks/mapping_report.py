@@ -25,6 +25,8 @@ thread (OPENBLAS_NUM_THREADS=1); its `--help` tells what the disks are and how i
 Valid is what an exact certificate calls a bijection, whoever made the map. Energies are symmetric
 Dirichlet energies at the best scale, 1 for an isometry, of valid maps alone: a method that is
 valid only on easy disks has a low median. Seconds are CPU time, summed over the disks of a group.
+Methods may have been measured at different times, by runs that went on from the folder: compare
+seconds of different methods roughly.
 """
 
 
