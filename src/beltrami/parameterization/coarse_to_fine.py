@@ -24,7 +24,6 @@ _LARGE = 5000  # vertices from which a coarser mesh comes first
 _COARSER = 4  # times fewer vertices
 _HARDLY = 1.5  # likewise: if no more can go, it does not pay
 _SWEEPS = 10  # over a map that is made of a coarser one
-_PAYS = 4e-3  # decrease in a step that is worth it, where a coarser map has gone most of the way
 
 
 def disk_map(
@@ -87,5 +86,5 @@ def _from_coarser(
     uv = stars(mesh).swept(uv, scale, _SWEEPS)
     if assess(mesh, uv).flips:
         return None
-    step = _relaxed(mesh, uv, False, max(settled, _PAYS))
+    step = _relaxed(mesh, uv, False, settled)
     return None if step.flips else step
