@@ -17,8 +17,7 @@ from beltrami.parameterization.stars import corner_lists
 _SHARE = 0.2  # of the vertices that remain: so many may be near the boundary
 _RINGS = 3  # of vertices around the boundary that stay, where these are no more
 _WIDEST = 12  # neighbours of a vertex that goes, at most
-_SHARE = 0.2
-_PASSES = 16
+_PASSES = 16  # over all vertices, at most
 _FEWEST = 0.02  # vertices that go in a pass, at least, for another one
 _WORST = 0.02  # shape of a new face, at least: 1 for an equilateral one
 _EQUILATERAL = 4 * np.sqrt(3)  # squares of its sides over its area
