@@ -65,6 +65,25 @@ def test_a_panel(columns, below, reordered, dtype, rounding):
         )
 
 
+def test_small_products_are_summed_before_they_meet_a_large_number():
+    """One after the other each would be rounded as the large one is: twenty times as far off."""
+    columns, large = 400, 1000.0
+    row = np.random.default_rng(0).uniform(0, 1e-3, columns).astype("f4")
+    panel = np.c_[np.eye(columns), row]
+    values = np.r_[panel.ravel(), 1].astype("f4")
+    starts, row_starts, rows = np.array([0, columns, columns + 1]), np.array([0, 1, 1]), [columns]
+    panels = np.array([0, panel.size, panel.size + 1])
+    x = lines_for(columns + 1, 4, "f4")
+    x[:] = 1
+    x[columns] = large
+    solve_many(
+        values, starts, row_starts, np.array(rows, np.int32), panels, np.arange(0), x,
+        np.empty(columns + 1, np.int64),
+    )  # fmt: skip
+    away = np.abs(x[columns].astype(float) - (large - row.astype(float).sum()))
+    assert away.max() <= np.spacing(np.float32(large))
+
+
 @pytest.mark.parametrize("dtype", ["f8", "f4"])
 @pytest.mark.parametrize("count", [1, 4, 5, 8, 9, 17])
 @pytest.mark.parametrize("reordered", [False, True])

@@ -1,7 +1,8 @@
 """The multifrontal factorisation: each block of columns is a small dense matrix (I. Duff, J. Reid).
 
 The panel of a block takes its entries of the matrix and what its children subtract from it, is
-factorised by BLAS-3, and leaves on a stack what it subtracts from the columns after it.
+factorised, by BLAS-3 or in tiles where it is small, and leaves on a stack what it subtracts from
+the columns after it.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from beltrami.solvers.tiles import BELOW, subtract
 NARROW = 12  # columns below which a triangle is factorised by loops
 SMALL = 96  # columns up to which a front is treated without BLAS
 WIDTH = 64  # columns of a larger one at a time
-ROOM = GROUP * (SMALL + 1)  # numbers that are copied, and what is not needed
+ROOM = GROUP * (max(SMALL, WIDTH) + 1)  # numbers that are copied, and what is not needed
 _MINUS, _ONE = 1, 0  # places of the scalars
 
 
