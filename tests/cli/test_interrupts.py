@@ -38,7 +38,7 @@ VERBS = {
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="no SIGINT to a single process on Windows")
 
 
-def interrupt(code, arguments, folder):
+def interrupt(code, arguments, folder, environment=None):
     """Run until it has started, send SIGINT; return the exit code and stderr."""
     process = subprocess.Popen(
         [sys.executable, "-c", code, *arguments],
@@ -46,6 +46,7 @@ def interrupt(code, arguments, folder):
         stderr=subprocess.PIPE,
         text=True,
         cwd=folder,
+        env=os.environ | (environment or {}),
     )
     try:
         assert process.stdout.readline() == "started\n", process.stderr.read()
@@ -92,6 +93,29 @@ def test_interrupted_tour_of_several_processes(tmp_path):
     names = {path.name for path in (tmp_path / "tour").iterdir()}
     assert "index.html" not in names
     assert not [name for name in names if name.startswith(".")]
+
+
+# Found by Python as it starts: processes of a pool take long, and say a traceback if interrupted.
+SLOW = """
+import sys, time
+if "--multiprocessing-fork" in sys.orig_argv:
+    time.sleep(2)
+"""
+
+
+def test_interrupted_while_the_processes_of_a_tour_start(tmp_path):
+    write_mesh(tmp_path / "in.ply", icosphere(3))
+    (tmp_path / "slow").mkdir()
+    (tmp_path / "slow" / "sitecustomize.py").write_text(SLOW)
+    code = TELLING.format(module="beltrami.cli.playing", name="as_completed")
+    setting = "import beltrami.cli.playing as p; p.LARGE, p._cores = 0, lambda: 2\n"
+    path = os.pathsep.join([str(tmp_path / "slow"), *filter(None, [os.getenv("PYTHONPATH")])])
+    start = time.monotonic()
+    errors, returncode = interrupt(
+        setting + code, ("tour", "in.ply", "-o", "tour"), tmp_path, {"PYTHONPATH": path}
+    )
+    assert (returncode, errors) == (130, "beltrami: interrupted\n")
+    assert time.monotonic() - start > 2  # they were starting
 
 
 def test_an_interrupt_that_python_loses_comes_again():

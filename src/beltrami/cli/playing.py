@@ -50,7 +50,7 @@ def _together(stage: Stage, progress: Progress, processes: int) -> list[tuple[Ch
     order = sorted(CHAPTERS, key=lambda name: name not in _LONGEST)
     pool = ProcessPoolExecutor(processes, get_context("spawn"), initializer=_leave_when_asked)
     try:
-        with _one_thread_each():
+        with _one_thread_each(), _deaf_until_ready():
             futures = {name: pool.submit(_play_in_process, stage, name) for name in order}
         for done, _ in enumerate(as_completed(futures.values()), 1):
             progress(done, len(CHAPTERS))
@@ -82,6 +82,22 @@ def _one_thread_each() -> Iterator[None]:
     finally:
         for name in new:
             del os.environ[name]
+
+
+@contextmanager
+def _deaf_until_ready() -> Iterator[None]:
+    """Let processes that start now hear Ctrl-C when they can leave without a traceback.
+
+    They inherit what is blocked. Here it is heard late, not lost.
+    """
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _cores() -> int:
@@ -120,7 +136,15 @@ def _play_in_process(stage: Stage, name: str) -> tuple[Chapter, bool]:
 
 def _leave_when_asked() -> None:
     """Leave a process of the pool by Ctrl-C without a traceback; the first process tells."""
+    if hasattr(signal, "pthread_sigmask"):
+        signal.signal(signal.SIGINT, _leave_at_once)  # what was asked while it started
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     signal.signal(signal.SIGINT, _leave)
+
+
+def _leave_at_once(*_: object) -> None:
+    """Leave where the pool would log an exception; nothing has been begun that needs an end."""
+    os._exit(130)
 
 
 def _leave(*_: object) -> None:
