@@ -7,6 +7,7 @@ import re
 import tracemalloc
 import zlib
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -36,11 +37,11 @@ def bomb(megabytes):
     return gzip.compress(bytes(MEGA)) * megabytes
 
 
-def refused(read, path):
+def refused(read, path, why="when it is unpacked, found more"):
     """Read a file, and return the peak of memory of being refused."""
     tracemalloc.start()
     try:
-        with pytest.raises(FileFormatError, match="when it is unpacked, found more") as error:
+        with pytest.raises(FileFormatError, match=why) as error:
             read(path)
         peak = tracemalloc.get_traced_memory()[1]
     finally:
@@ -230,6 +231,22 @@ def test_vtu_cannot_hide_what_is_compressed(put, small):
         path = put("a.vtu", other)
         with pytest.raises(FileFormatError):
             require_room(path, ".vtu", unpacking.room_of(path, path.stat().st_size))
+
+
+@pytest.mark.parametrize("suffix", ["vtu", "gii"])
+def test_entities_that_stand_for_a_gigabyte(put, suffix):
+    """Ten of ten, nine times over: it is refused before it has become that."""
+    pytest.importorskip({"vtu": "meshio", "gii": "nibabel"}[suffix])
+    names = "abcdefghi"
+    entities = ['<!ENTITY a "0 1 2 3 4 5 6 7 8 9 ">']
+    entities += [f'<!ENTITY {b} "{10 * f"&{a};"}">' for a, b in pairwise(names)]
+    kind = {"vtu": "VTKFile", "gii": "GIFTI"}[suffix]
+    head = f"<?xml version='1.0'?><!DOCTYPE {kind} [{''.join(entities)}]>"
+    body = {
+        "vtu": hidden("<u8").replace('format="binary">', 'format="ascii">&i;'),
+        "gii": "<GIFTI Version='1.0' NumberOfDataArrays='1'><DataArray>&i;</DataArray></GIFTI>",
+    }[suffix]
+    assert refused(read_mesh, put(f"a.{suffix}", head + body), "amplification") < 64 * MEGA
 
 
 def test_lzma_has_no_second_stream():
