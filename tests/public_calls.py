@@ -128,6 +128,7 @@ MESHES = {
     "Diagnosis.to_dict": lambda s: bt.diagnose(s.mesh).to_dict(),
     "repair": lambda s: bt.repair(
         s.mesh,
+        remove_vertices=s.held,
         remove_non_finite=True,
         merge_duplicate_vertices=True,
         remove_degenerate_faces=True,

@@ -16,6 +16,14 @@ Floats: TypeAlias = NDArray[np.float64]
 Integers: TypeAlias = NDArray[np.int64]
 Booleans: TypeAlias = NDArray[np.bool_]
 
+FUNCTION = "the function"
+GIVE = "Give finite values there."
+LEAVE_OUT = (
+    "Give finite values there, or leave these vertices out with "
+    "repair(mesh, remove_vertices=~np.isfinite(f))."
+)
+DROP = "Drop these vertices with repair(mesh, remove_non_finite=True)."
+
 _HUGE = 2**21  # bytes: a page of memory for those who need much of it
 
 
@@ -98,7 +106,7 @@ def as_floats(array: ArrayLike) -> Floats:
     return rectangular(array).astype(np.float64, copy=False)
 
 
-def as_function(f: ArrayLike, n: int, what: str = "the function") -> Floats:
+def as_function(f: ArrayLike, n: int, what: str = FUNCTION) -> Floats:
     """Check a function on n vertices: shape (n,) or (n, c), every value finite.
 
     Chapter items: D5.
@@ -116,11 +124,11 @@ def as_function(f: ArrayLike, n: int, what: str = "the function") -> Floats:
             f"{what} has the shape {values.shape} where ({n},) or ({n}, c) is needed",
             remedy="Give one row for each vertex.",
         )
-    require_finite(values, what)
+    require_finite(values, what, LEAVE_OUT if what.startswith(FUNCTION) else GIVE)
     return values
 
 
-def require_finite(values: NDArray[Any], what: str) -> None:
+def require_finite(values: NDArray[Any], what: str, remedy: str = GIVE) -> None:
     """Raise NonFiniteError, with the rows, if a value is NaN or infinite."""
     finite = np.isfinite(values)
     if not finite.all():
@@ -128,8 +136,7 @@ def require_finite(values: NDArray[Any], what: str) -> None:
         raise NonFiniteError(
             f"{what} has values that are NaN or infinite",
             vertices=rows,
-            remedy="Give finite values there, or drop these vertices with "
-            "repair(mesh, remove_non_finite=True).",
+            remedy=remedy,
         )
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from beltrami._arrays import Floats, require_finite
+from beltrami._arrays import DROP, Floats, require_finite
 from beltrami.display.camera import Camera
 from beltrami.display.light import SHADINGS, Light
 from beltrami.display.srgb import Color, as_color
@@ -105,7 +105,7 @@ def check_mesh(mesh: Mesh) -> None:
         )
     if not mesh.n_faces:
         raise EmptyMeshError("a mesh without faces cannot be drawn")
-    require_finite(mesh.vertices, "the position")
+    require_finite(mesh.vertices, "the position", DROP)
 
 
 def _check_counts(what: str, values: Any, length: int, greatest: int) -> None:

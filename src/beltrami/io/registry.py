@@ -11,7 +11,7 @@ from typing import IO, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, as_floats, require_finite
+from beltrami._arrays import DROP, Floats, as_floats, require_finite
 from beltrami._kinds import checked
 from beltrami.errors import (
     DimensionError,
@@ -240,7 +240,7 @@ def _writable(mesh: Mesh, suffix: str) -> Floats:
         )
     if mesh.n_faces == 0:
         raise EmptyMeshError("a mesh without faces cannot be written", remedy="Add faces.")
-    require_finite(mesh.vertices, "the coordinates")
+    require_finite(mesh.vertices, "the coordinates", DROP)
     if suffix == ".stl":
         small = np.where(np.abs(mesh.vertices) <= _FLOAT32_MAX, mesh.vertices, np.inf)
         require_finite(small, "the coordinates, rounded to the 32 bits of STL,")
