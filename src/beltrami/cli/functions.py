@@ -19,21 +19,14 @@ def read_data(path: Path, mesh: Mesh, name: str | None = None) -> Floats:
 
 
 def write_values(path: Path, mesh: Mesh, name: str, values: Floats) -> None:
-    """Write values to .npy or .txt, or the mesh with the values as a named function to .ply.
+    """Write values to a file, or the mesh with the values as a named function to .ply.
 
     The suffix was checked before the work, by ``check_values_output``.
     """
-    import numpy as np
-
-    from beltrami.io.atomic import replacing
+    from beltrami.io.function_write import write_function
     from beltrami.io.registry import write_mesh
 
-    suffix = path.suffix.lower()
-    if suffix == ".npy":
-        with replacing(path) as file:
-            np.save(file, values, allow_pickle=False)
-    elif suffix in (".txt", ".csv"):
-        with replacing(path) as file:
-            np.savetxt(file, values, fmt="%.17g", delimiter="," if suffix == ".csv" else " ")
-    else:
+    if path.suffix.lower() == ".ply":
         write_mesh(path, mesh.with_data(**{name: values}))
+    else:
+        write_function(path, values)

@@ -190,7 +190,7 @@ def _remove_vertices(work: _Work, unwanted: Integers) -> str:
 
 def _drop(work: _Work, kept: Booleans) -> int:
     """Keep only these vertices, and the faces all of whose vertices are among them."""
-    work.keep_faces(kept[work.faces].all(axis=1))
+    work.keep_faces(np.asarray(kept[work.faces].all(axis=1)))
     return work.keep_vertices(kept)
 
 
