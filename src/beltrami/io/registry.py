@@ -120,8 +120,9 @@ def write_mesh(
 
     What a format cannot hold is left out: OBJ keeps coordinates, texture coordinates and the
     vertex data "color"; OFF coordinates, "color" and "normal"; PLY coordinates and all numeric
-    vertex data, with their types; STL only coordinates, rounded to 32 bits, as in GLB. Everything
-    else reads back bit for bit. A flat mesh (d = 2) is written with z = 0.
+    vertex data, with their types; STL only coordinates, rounded to 32 bits, as in GLB, GIFTI and
+    FreeSurfer's files (``lh.pial`` ...). Everything else reads back bit for bit. A flat
+    mesh (d = 2) is written with z = 0.
 
     Parameters
     ----------
@@ -148,7 +149,7 @@ def write_mesh(
     EmptyMeshError
         If there are no faces.
     NonFiniteError
-        If a coordinate is NaN or infinite, or too large for STL.
+        If a coordinate is NaN or infinite, or too large for 32 bits where the format has those.
 
     Examples
     --------
@@ -241,7 +242,7 @@ def _writable(mesh: Mesh, suffix: str) -> Floats:
     if mesh.n_faces == 0:
         raise EmptyMeshError("a mesh without faces cannot be written", remedy="Add faces.")
     require_finite(mesh.vertices, "the coordinates", DROP)
-    if suffix == ".stl":
+    if suffix in (".stl", *extras.SINGLE):
         small = np.where(np.abs(mesh.vertices) <= _FLOAT32_MAX, mesh.vertices, np.inf)
-        require_finite(small, "the coordinates, rounded to the 32 bits of STL,")
+        require_finite(small, f"the coordinates, rounded to the 32 bits of {suffix[1:].upper()},")
     return mesh.vertices if d == 3 else np.hstack([mesh.vertices, np.zeros((n, 3 - d))])
