@@ -171,3 +171,13 @@ def test_large_arrays_are_copied_once():
         kept[0] = 7
     with pytest.raises(ValueError, match="cannot set WRITEABLE"):
         kept.flags.writeable = True
+
+
+@pytest.mark.parametrize("kind", [RuntimeError, TypeError])
+def test_what_refuses_to_become_an_array_is_one_clear_line(kind):
+    class Tensor:
+        def __array__(self, dtype=None, copy=None):
+            raise kind("Use tensor.detach().numpy() instead.")
+
+    with pytest.raises(DimensionError, match=r"of type Tensor: Use tensor\.detach"):
+        as_function(Tensor(), 3)

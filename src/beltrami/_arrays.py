@@ -96,6 +96,10 @@ def rectangular(array: ArrayLike) -> NDArray[Any]:
         given = np.asarray(array)
     except ValueError as cause:
         raise DimensionError("the rows of an array differ in length") from cause
+    except (RuntimeError, TypeError) as cause:  # a tensor with a gradient, or on another device
+        raise DimensionError(
+            f"no array can be made of an object of type {type(array).__name__}: {cause}"
+        ) from cause
     if given.dtype.kind not in "biuf":
         raise DimensionError(f"an array of real numbers is needed, not of type {given.dtype}")
     return given

@@ -314,3 +314,9 @@ def test_a_surface_with_one_side_has_no_volume_after_any_repair():
     with pytest.raises(NotOrientableError, match="one side") as caught:
         _ = plane.volume
     assert "repair" not in caught.value.remedy
+
+
+def test_the_three_counts_make_the_euler_characteristic():
+    mesh = torus(5, 7)
+    assert mesh.n_edges == len(mesh.edges) == 3 * 35
+    assert mesh.n_vertices - mesh.n_edges + mesh.n_faces == mesh.euler_characteristic == 0
