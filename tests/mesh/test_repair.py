@@ -349,3 +349,11 @@ def test_the_remedy_for_a_function_without_values_is_one():
     part = repair(mesh, remove_vertices=~np.isfinite(f))
     assert np.array_equal(caught.value.vertices, np.flatnonzero(part.vertex_map < 0))
     assert as_function(f[part.vertex_origin], part.mesh.n_vertices).all()
+
+
+def test_nothing_is_left_and_later_steps_have_nothing_to_do():
+    triangle = Mesh(np.full((3, 3), np.nan), [[0, 1, 2]])
+    fixed = repair(triangle, **dict.fromkeys(KEYWORDS, True))
+    assert fixed.vertex_map.tolist() == [-1, -1, -1]
+    assert fixed.face_map.tolist() == [-1]
+    assert fixed.mesh.n_vertices == len(fixed.vertex_origin) == 0

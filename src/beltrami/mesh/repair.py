@@ -160,8 +160,12 @@ class _Work:
         number = np.where(kept, np.cumsum(kept) - 1, -1)
         self.faces = number[self.faces]
         self.origin = self.origin[kept]
-        self.vertex_map = np.where(self.vertex_map >= 0, number[self.vertex_map], -1)
+        self.renumber(number)
         return int(np.count_nonzero(~kept))
+
+    def renumber(self, number: Integers) -> None:
+        """Follow old vertices to new numbers; -1, for those that are gone, stays -1."""
+        self.vertex_map = np.append(number, -1)[self.vertex_map]
 
     def turn_faces(self, turned: Booleans) -> int:
         self.faces[turned] = self.faces[turned][:, [0, 2, 1]]
@@ -203,7 +207,7 @@ def _merge(work: _Work, tolerance: float) -> str:
     targets = merge_targets(work.positions, tolerance)
     kept = targets == np.arange(len(targets))
     work.faces = targets[work.faces]
-    work.vertex_map = np.where(work.vertex_map >= 0, targets[work.vertex_map], -1)
+    work.renumber(targets)
     count = work.keep_vertices(kept)
     return _line("merged", count, "duplicate vertex", "duplicate vertices")
 
