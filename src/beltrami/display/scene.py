@@ -37,12 +37,15 @@ class Style:
     wireframe: bool = False
     line_width: float | None = None
     antialias: int = 2
+    missing: Color | None = None
 
     def __post_init__(self) -> None:
         check_name("shading", self.shading, SHADINGS)
         check_name("back", self.back, BACKS)
         as_color(self.color)
         as_color(self.background, "the background")
+        if self.missing is not None:
+            as_color(self.missing, "the colour of missing values")
         _check_counts("antialias", (self.antialias,), 1, 8)
         _check_counts("the size (width, height)", self.size, 2, _LONGEST // self.antialias)
         for name in ("ambient", "fill", "line_width"):
