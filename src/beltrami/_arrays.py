@@ -100,6 +100,14 @@ def rectangular(array: ArrayLike) -> NDArray[Any]:
         raise DimensionError(
             f"no array can be made of an object of type {type(array).__name__}: {cause}"
         ) from cause
+    if isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
+        hidden = np.atleast_1d(np.ma.getmaskarray(array))
+        raise NonFiniteError(
+            "an array hides some of its values behind a mask, which would be lost",
+            vertices=np.flatnonzero(hidden.reshape(len(hidden), -1).any(axis=1)),
+            remedy="Fill them: f.filled(0). Or leave these vertices out with repair(mesh, "
+            "remove_vertices=f.mask).",
+        )
     if given.dtype.kind not in "biuf":
         raise DimensionError(f"an array of real numbers is needed, not of type {given.dtype}")
     return given
@@ -144,13 +152,14 @@ def require_finite(values: NDArray[Any], what: str, remedy: str = GIVE) -> None:
         )
 
 
-def as_indices(indices: ArrayLike, n: int, what: str) -> Integers:
+def as_indices(indices: ArrayLike, n: int, what: str, repeated: bool = False) -> Integers:
     """Check a list of indices into n things, or a boolean mask of n values.
 
     Raises
     ------
     MeshError
-        If an index is not an integer in 0..n-1; ``error.vertices`` lists them.
+        If an index is not an integer in 0..n-1; ``error.vertices`` lists them. Also for n zeros
+        and ones, which are a mask by mistake, unless things may well be ``repeated``.
     """
     given = rectangular(indices)
     if given.dtype == np.bool_ and given.shape == (n,):
@@ -159,6 +168,11 @@ def as_indices(indices: ArrayLike, n: int, what: str) -> Integers:
         return np.zeros(0, np.int64)
     if given.dtype.kind not in "iu":
         raise MeshError(f"{what} must be integers or a mask of {n} truth values")
+    if not repeated and given.shape == (n,) and n > 2 and given.min() >= 0 and given.max() <= 1:
+        raise MeshError(
+            f"{what} are {n} zeros and ones, which are no list of indices",
+            remedy="Give a mask as truth values: mask.astype(bool).",
+        )
     flat = given.astype(np.int64).ravel()
     outside = flat[(flat < 0) | (flat >= n)]
     if len(outside):
