@@ -48,6 +48,9 @@ def test_shapes_types_and_numbers(dtype):
 
 def test_devices_and_types_of_torch():
     torch = pytest.importorskip("torch")
+    moved = OPERATORS.to("torch", dtype="float64").to("meta")
+    assert {getattr(moved, field.name).device.type for field in fields(moved)} == {"meta"}
+    assert moved.masses.dtype == torch.float64
     for dtype in (torch.float32, torch.float64):
         assert OPERATORS.to("torch", dtype=dtype).masses.dtype == dtype
     with pytest.raises(UnknownNameError, match="float32"):
