@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from beltrami._nearest import nearest
 
 __all__ = [
     "ApproximationError", "BeltramiError", "BoundaryCurveError", "ConvergenceError",
@@ -19,24 +20,6 @@ __all__ = [
     "SurfaceError", "TruncationError", "UnknownNameError", "UnreferencedVertexError",
 ]  # fmt: skip
 
-_ELSEWHERE = {  # what the chapter, or another library, calls a thing: only a hint in an error
-    "backward_euler": ("implicit",),
-    "conformal": ("cotangent", "least_squares_conformal"),
-    "cot": ("cotangent",),
-    "dijkstra": ("edges",),
-    "expm": ("exact",),
-    "forward_euler": ("explicit",),
-    "full": ("consistent",),
-    "graph": ("combinatorial",),
-    "heat": ("implicit",),
-    "laplacian": ("averaging",),
-    "lscm": ("least_squares_conformal",),
-    "lumped": ("barycentric",),
-    "mean_curvature_flow": ("curvature_flow",),
-    "mixed": ("voronoi",),
-    "umbrella": ("combinatorial",),
-    "uniform": ("combinatorial",),
-}
 _SHOWN = 5
 _LONGEST = 60
 
@@ -261,11 +244,9 @@ class UnknownNameError(BeltramiError, ValueError):
     def __init__(self, what: str, name: object, choices: Iterable[str]) -> None:
         self.name = name
         self.choices = tuple(choices)
-        near = [known for known in _ELSEWHERE.get(str(name).lower(), ()) if known in self.choices]
-        near = near or difflib.get_close_matches(str(name), self.choices, n=1)
-        hint = f" Did you mean {near[0]!r}?" if near else ""
-        listed = ", ".join(repr(choice) for choice in self.choices)
-        super().__init__(f"unknown {what} {shown(name)}: choose one of {listed}.{hint}")
+        near = nearest(str(name), self.choices)
+        listed = ", ".join(map(repr, self.choices)) + (f". Did you mean {near!r}?" if near else ".")
+        super().__init__(f"unknown {what} {shown(name)}: choose one of {listed}")
 
 
 class FileFormatError(BeltramiError, ValueError):
