@@ -10,12 +10,16 @@ if TYPE_CHECKING:
     from beltrami.mesh.mesh import Mesh
 
 
-def read_data(path: Path, mesh: Mesh, name: str | None = None) -> Floats:
+def read_data(path: Path, mesh: Mesh, name: str | None = None, missing: bool = False) -> Floats:
     """Read a function from a file, by its name if the file has several; check it."""
+    import numpy as np
+
     from beltrami._arrays import as_function
     from beltrami.io.function import read_function
 
-    return as_function(read_function(path, name), mesh.n_vertices, f"the function of {path}")
+    f = read_function(path, name, missing=missing)
+    as_function(np.where(np.isnan(f), 0, f), mesh.n_vertices, f"the function of {path}")
+    return f
 
 
 def write_values(path: Path, mesh: Mesh, name: str, values: Floats) -> None:
