@@ -22,6 +22,7 @@ from beltrami.errors import (
 )
 from beltrami.io import extras
 from beltrami.io.atomic import replacing
+from beltrami.io.glb_write import glb_bytes
 from beltrami.io.obj import read_obj
 from beltrami.io.obj_write import corner_texture, material_text, write_obj
 from beltrami.io.off import read_off
@@ -46,7 +47,8 @@ WRITERS: dict[str, Callable[[IO[bytes], Mesh, Floats], None]] = {
     ".ply": write_ply,
     ".stl": write_stl,
 }
-TEXTURED = (".obj", *extras.TEXTURED)
+TEXTURED = (".obj", ".glb")
+_SINGLE = {".stl": "STL", ".glb": "GLB"}  # which hold 32 bits of a number
 _FLOAT32_MAX = float(np.finfo(np.float32).max)
 
 
@@ -120,7 +122,8 @@ def write_mesh(
 
     What a format cannot hold is left out: OBJ keeps coordinates, texture coordinates and the
     vertex data "color"; OFF coordinates, "color" and "normal"; PLY coordinates and all numeric
-    vertex data, with their types; STL only coordinates, rounded to 32 bits, as in GLB. Everything
+    vertex data, with their types; STL only coordinates, rounded to 32 bits; GLB, in 32 bits too,
+    what OBJ keeps, and normals, so that viewers shade it smoothly (see ``glb_bytes``). Everything
     else reads back bit for bit. A flat mesh (d = 2) is written with z = 0.
 
     Parameters
@@ -148,7 +151,7 @@ def write_mesh(
     EmptyMeshError
         If there are no faces.
     NonFiniteError
-        If a coordinate is NaN or infinite, or too large for STL.
+        If a coordinate is NaN or infinite, or too large for STL or GLB.
 
     Examples
     --------
@@ -159,7 +162,7 @@ def write_mesh(
     ...     read_mesh(pathlib.Path(folder, "flat.ply")).vertices[0].tolist()
     [0.1, 0.0, 0.0]
     """
-    suffix = suffix_of(path, None, (*WRITERS, *extras.WRITERS))
+    suffix = suffix_of(path, None, (*WRITERS, ".glb", *extras.WRITERS))
     vertices = _writable(mesh, suffix)
     material = ""
     turns = None if uv is None else as_floats(uv)
@@ -223,9 +226,8 @@ def _write(
         write_obj(file, mesh, vertices, uv, material)
     elif suffix in WRITERS:
         WRITERS[suffix](file, mesh, vertices)
-    elif suffix in extras.TEXTURED:
-        turns = corner_texture(mesh, uv)
-        file.write(extras.encode_textured(mesh, vertices, suffix, turns, texture))
+    elif suffix == ".glb":
+        file.write(glb_bytes(mesh, vertices, corner_texture(mesh, uv), texture))
     else:
         file.write(extras.encode(mesh, vertices, suffix))
 
@@ -241,7 +243,7 @@ def _writable(mesh: Mesh, suffix: str) -> Floats:
     if mesh.n_faces == 0:
         raise EmptyMeshError("a mesh without faces cannot be written", remedy="Add faces.")
     require_finite(mesh.vertices, "the coordinates")
-    if suffix == ".stl":
+    if suffix in _SINGLE:
         small = np.where(np.abs(mesh.vertices) <= _FLOAT32_MAX, mesh.vertices, np.inf)
-        require_finite(small, "the coordinates, rounded to the 32 bits of STL,")
+        require_finite(small, f"the coordinates, rounded to the 32 bits of {_SINGLE[suffix]},")
     return mesh.vertices if d == 3 else np.hstack([mesh.vertices, np.zeros((n, 3 - d))])
