@@ -18,6 +18,25 @@ def read_data(path: Path, mesh: Mesh, name: str | None = None) -> Floats:
     return as_function(read_function(path, name), mesh.n_vertices, f"the function of {path}")
 
 
+def read_drawn(path: Path, mesh: Mesh, name: str | None = None) -> Floats:
+    """Read numbers or colours to be drawn, (n,) or (n, 3), as ``render`` asks for them.
+
+    Colours may be bytes, as in most files; of four columns the last one, opacity, is left out.
+    """
+    import numpy as np
+
+    from beltrami._arrays import as_function
+    from beltrami.display.values import as_values
+    from beltrami.io.function import read_values
+
+    held = read_values(path, name)
+    shown = held[:, :3] if held.ndim == 2 and held.shape[1] == 4 else held
+    kept = np.uint8 if held.dtype == np.uint8 else np.float64
+    as_function(held.astype(np.float64), mesh.n_vertices, f"the function of {path}")
+    values = as_values(mesh, shown.astype(kept))
+    return values[:, 0] if values.shape[1] == 1 else values
+
+
 def write_values(path: Path, mesh: Mesh, name: str, values: Floats) -> None:
     """Write values to .npy or .txt, or the mesh with the values as a named function to .ply.
 

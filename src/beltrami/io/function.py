@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from beltrami._arrays import Floats
 from beltrami._kinds import checked
@@ -62,6 +63,13 @@ def read_function(
     ...     read_function(place).tolist()
     [0.5, 1.5]
     """
+    return np.ascontiguousarray(read_values(path, name, max_bytes), dtype=np.float64)
+
+
+def read_values(
+    path: str | os.PathLike[str], name: str | None = None, max_bytes: int | None = None
+) -> NDArray[Any]:
+    """Read a function as ``read_function`` does, in the type that it has in the file."""
     suffix = suffix_of(path, None, (*_TEXT, *READERS, *_OTHERS))
     place = Path(path)
     if suffix in _TEXT:
@@ -90,17 +98,16 @@ def _foreign(place: Path, suffix: str, max_bytes: int | None) -> Any:
             raise FileFormatError(place, f"expected a {suffix} file ({reason})") from cause
 
 
-def _checked(place: Path, values: Any) -> Floats:
+def _checked(place: Path, values: Any) -> NDArray[Any]:
     if not isinstance(values, np.ndarray) or values.dtype.kind not in "biuf":
         raise FileFormatError(place, "expected an array of real numbers")
     if values.ndim not in (1, 2) or values.size == 0:
         raise FileFormatError(place, f"expected the shape (n,) or (n, c), found {values.shape}")
-    result = np.ascontiguousarray(values, dtype=np.float64)
-    finite = np.isfinite(result)
+    finite = np.isfinite(values)
     if not finite.all():
         row = int(np.argwhere(~finite)[0, 0])
         raise FileFormatError(place, f"expected finite values, found NaN or infinity in row {row}")
-    return result
+    return values
 
 
 def _read_npy(place: Path, _room: Room) -> Any:
