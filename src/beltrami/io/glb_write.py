@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,6 +73,11 @@ def glb_bytes(
     material = {"pbrMetallicRoughness": look, "doubleSided": bool(mesh.topology.on_boundary.any())}
     primitive = {"attributes": attributes, "indices": file.add(faces.ravel()), "material": 0}
     return file.whole(meshes=[{"primitives": [primitive]}], materials=[material], **rest)
+
+
+def write_glb(file: IO[bytes], mesh: Mesh, vertices: Floats) -> None:
+    """Write a GLB file, with the texture coordinates of the mesh if it has any."""
+    file.write(glb_bytes(mesh, vertices, mesh.corner_uv))
 
 
 class _File:

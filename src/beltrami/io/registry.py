@@ -22,7 +22,7 @@ from beltrami.errors import (
 )
 from beltrami.io import extras
 from beltrami.io.atomic import replacing
-from beltrami.io.glb_write import glb_bytes
+from beltrami.io.glb_write import glb_bytes, write_glb
 from beltrami.io.obj import read_obj
 from beltrami.io.obj_write import corner_texture, material_text, write_obj
 from beltrami.io.off import read_off
@@ -46,6 +46,7 @@ WRITERS: dict[str, Callable[[IO[bytes], Mesh, Floats], None]] = {
     ".off": write_off,
     ".ply": write_ply,
     ".stl": write_stl,
+    ".glb": write_glb,
 }
 TEXTURED = (".obj", ".glb")
 _SINGLE = {".stl": "STL", ".glb": "GLB"}  # which hold 32 bits of a number
@@ -162,7 +163,7 @@ def write_mesh(
     ...     read_mesh(pathlib.Path(folder, "flat.ply")).vertices[0].tolist()
     [0.1, 0.0, 0.0]
     """
-    suffix = suffix_of(path, None, (*WRITERS, ".glb", *extras.WRITERS))
+    suffix = suffix_of(path, None, (*WRITERS, *extras.WRITERS))
     vertices = _writable(mesh, suffix)
     material = ""
     turns = None if uv is None else as_floats(uv)
@@ -224,10 +225,10 @@ def _write(
 ) -> None:
     if suffix == ".obj":
         write_obj(file, mesh, vertices, uv, material)
-    elif suffix in WRITERS:
-        WRITERS[suffix](file, mesh, vertices)
     elif suffix == ".glb":
         file.write(glb_bytes(mesh, vertices, corner_texture(mesh, uv), texture))
+    elif suffix in WRITERS:
+        WRITERS[suffix](file, mesh, vertices)
     else:
         file.write(extras.encode(mesh, vertices, suffix))
 
