@@ -6,9 +6,25 @@ from collections.abc import Callable
 from typing import Any, TypeVar, cast
 
 import numba
+from numba.core import event
 from numpy.typing import NDArray
 
+from beltrami._collector import resting_collector
+
 Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+class _Compiling(event.Listener):  # type: ignore[misc]
+    """Lets the collector of garbage rest while numba compiles, or loads what it had compiled."""
+
+    def on_start(self, event: Any) -> None:  # noqa: ARG002
+        resting_collector.__enter__()
+
+    def on_end(self, event: Any) -> None:  # noqa: ARG002
+        resting_collector.__exit__()
+
+
+event.register("numba:compiler_lock", _Compiling())
 
 
 def kernel(function: Function) -> Function:
