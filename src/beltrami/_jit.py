@@ -7,6 +7,7 @@ from typing import Any, TypeVar, cast
 
 import numba
 from numba.core import event
+from numba.extending import register_jitable
 from numpy.typing import NDArray
 
 from beltrami._collector import resting_collector
@@ -53,6 +54,15 @@ def plain_kernel(function: Function) -> Function:
         return cast(Function, numba.njit(**options)(function))
     except KeyError:  # an option of numba that may go away
         return kernel(function)
+
+
+def part_of_kernels(function: Function) -> Function:
+    """Let kernels call a function; for Python it stays as it is written.
+
+    It is compiled into each kernel that calls it, without what makes it ready for Python, which
+    takes as long as a small function itself.
+    """
+    return cast(Function, register_jitable(function))
 
 
 def unsigned(indices: NDArray[Any]) -> NDArray[Any]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beltrami._arrays import Integers, read_only, unwritten
-from beltrami._jit import kernel, unsigned
+from beltrami._jit import kernel, part_of_kernels, unsigned
 from beltrami.errors import MeshError
 from beltrami.mesh.numbering import BEHIND, number_edges
 
@@ -125,20 +125,24 @@ def _count_sides(faces: Any, sizes: Any, cursors: Any) -> Any:
     """
     one = np.uint64(1)
     m = np.uint64(faces.shape[0])
-    f = np.uint64(0)
-    sizes[:] = 0
+    n = np.uint64(sizes.size)
+    f = v = total = np.uint64(0)
+    while v < n:
+        sizes[v] = 0
+        v += one
     while f < m:
         i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
         if i != j and j != k and k != i:
-            sizes[min(i, j)] += 1
-            sizes[min(j, k)] += 1
-            sizes[min(k, i)] += 1
+            sizes[i if i < j else j] += one
+            sizes[j if j < k else k] += one
+            sizes[k if k < i else i] += one
         f += one
-    total = 0
-    for v in range(sizes.size):
+    v = np.uint64(0)
+    while v < n:
         cursors[v, 0] = total
-        total += sizes[v]
-        cursors[v, 1] = total - 1
+        total += np.uint64(sizes[v])
+        cursors[v, 1] = total - one
+        v += one
     return total
 
 
@@ -161,10 +165,11 @@ def _fill_buckets(faces: Any, cursors: Any, sides: Any) -> None:
         f += one
 
 
-@kernel
+@part_of_kernels
 def _put(a: Any, b: Any, h: Any, cursors: Any, sides: Any) -> None:
     """Put the half-edge h from a to b into its bucket."""
-    low, down = min(a, b), np.uint64(b < a)
+    low, high = (b, a) if b < a else (a, b)
+    down = np.uint64(b < a)
     place = cursors[low, down]
-    sides[np.uint64(place)] = (max(a, b) << np.uint64(32)) | h
+    sides[np.uint64(place)] = (high << np.uint64(32)) | h
     cursors[low, down] = place + np.uint32(np.uint64(1) - down - down)
