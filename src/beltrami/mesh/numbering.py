@@ -147,7 +147,7 @@ def _sort_many(words: Any, begin: Any, end: Any) -> None:
 def _number_sorted(
     bucket: Any, first: Any, sides: Any, free: Any, ends: Any, face_edges: Any, twins: Any
 ) -> Any:
-    """Number the edges of a bucket whose sides are sorted, from the place ``first`` on.
+    """Give numbers to the edges of a bucket whose sides are sorted, from the place ``first`` on.
 
     Returns the next number, or ``NO_ROOM``, and how many edges are of which kind.
     """
