@@ -101,14 +101,13 @@ def _paired(corners: Any, n: int, room: int) -> HalfEdges | None:
     ends = unwritten(room + total + BEHIND, np.int64)
     words = unsigned(ends)
     sides = words[room:]
-    _fill_buckets(corners, cursors, sides)
     of_sides = unwritten((2, m, 3), np.int32)
     complete = total == 3 * m
     if not complete:  # faces that name a vertex twice have no sides
         of_sides[0], of_sides[1] = -1, BOUNDARY
     face_edges, twins = of_sides
-    p, boundary, crowded, disoriented = number_edges(
-        sides, cursors, sizes, room, words, face_edges.ravel(), twins.ravel()
+    p, boundary, crowded, disoriented = _fill_and_number(
+        corners, cursors, sizes, sides, room, words, face_edges.ravel(), twins.ravel()
     )
     if p < 0:
         return None
@@ -147,6 +146,22 @@ def _count_sides(faces: Any, sizes: Any, cursors: Any) -> Any:
 
 
 @kernel
+def _fill_and_number(
+    faces: Any,
+    cursors: Any,
+    sizes: Any,
+    sides: Any,
+    room: Any,
+    ends: Any,
+    face_edges: Any,
+    twins: Any,
+) -> Any:
+    """Fill the buckets, and number the edges in them: see ``number_edges``."""
+    _fill_buckets(faces, cursors, sides)
+    return number_edges(sides, cursors, sizes, room, ends, face_edges, twins)
+
+
+@part_of_kernels
 def _fill_buckets(faces: Any, cursors: Any, sides: Any) -> None:
     """Fill the buckets: from the front with sides that run upwards, from the back with others.
 

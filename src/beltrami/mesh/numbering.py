@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from beltrami._jit import kernel, part_of_kernels
+from beltrami._jit import part_of_kernels
 from beltrami.mesh.lanes import LANES, below, bits_in, first_bit, will_write
 
 AHEAD = 48  # sides: how early the memory of their results is asked for
@@ -20,7 +20,7 @@ NO_ROOM = np.uint64(2**64 - 1)
 # another kind are sorted: few sides are compared with all of them to tell their places.
 
 
-@kernel
+@part_of_kernels
 def number_edges(
     sides: Any, starts: Any, sizes: Any, room: Any, ends: Any, face_edges: Any, twins: Any
 ) -> Any:
