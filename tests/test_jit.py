@@ -9,7 +9,7 @@ import numba
 import numpy as np
 import pytest
 
-from beltrami._jit import kernel, plain_kernel, unsigned
+from beltrami._jit import kernel, part_of_kernels, plain_kernel, unsigned
 
 USE = """
     from beltrami.mesh.shapes import icosphere
@@ -44,6 +44,20 @@ def test_a_plain_kernel_views_arrays_and_cannot_make_them():
     assert sys.getrefcount(x) == 2
     with pytest.raises(numba.errors.NumbaError):
         plain_kernel(add)(x, 2.0)
+
+
+@part_of_kernels
+def larger(a, b):
+    return a if a > b else b
+
+
+def largest_of_three(a, b, c):
+    return larger(larger(a, b), c)
+
+
+def test_a_part_of_kernels_is_called_by_kernels_and_stays_plain_for_python():
+    assert kernel(largest_of_three)(2.0, 5.0, 3.0) == largest_of_three(2.0, 5.0, 3.0) == 5.0
+    assert larger.__globals__ is globals()
 
 
 def all_but_the_first(x):

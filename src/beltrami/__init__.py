@@ -19,6 +19,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 from beltrami._carded import register_drawer
+from beltrami._collector import resting_collector
 
 if TYPE_CHECKING:
     from beltrami import datasets as datasets
@@ -277,10 +278,12 @@ __all__ = sorted([*_HOME, *_MODULES])
 def __getattr__(name: str) -> Any:
     """Load a public name when it is first used (PEP 562)."""
     if name in _MODULES:
-        return importlib.import_module(f"beltrami.{_MODULES[name]}")
+        with resting_collector:
+            return importlib.import_module(f"beltrami.{_MODULES[name]}")
     if name not in _HOME:
         raise AttributeError(f"module 'beltrami' has no attribute {name!r}")
-    value = getattr(importlib.import_module(f"beltrami.{_HOME[name]}"), name)
+    with resting_collector:
+        value = getattr(importlib.import_module(f"beltrami.{_HOME[name]}"), name)
     globals()[name] = value
     return value
 

@@ -6,9 +6,26 @@ from collections.abc import Callable
 from typing import Any, TypeVar, cast
 
 import numba
+from numba.core import event
+from numba.extending import register_jitable
 from numpy.typing import NDArray
 
+from beltrami._collector import resting_collector
+
 Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+class _Compiling(event.Listener):  # type: ignore[misc]
+    """Lets the collector of garbage rest while numba compiles, or loads what it had compiled."""
+
+    def on_start(self, event: Any) -> None:  # noqa: ARG002
+        resting_collector.__enter__()
+
+    def on_end(self, event: Any) -> None:  # noqa: ARG002
+        resting_collector.__exit__()
+
+
+event.register("numba:compiler_lock", _Compiling())
 
 
 def kernel(function: Function) -> Function:
@@ -37,6 +54,15 @@ def plain_kernel(function: Function) -> Function:
         return cast(Function, numba.njit(**options)(function))
     except KeyError:  # an option of numba that may go away
         return kernel(function)
+
+
+def part_of_kernels(function: Function) -> Function:
+    """Let kernels call a function; for Python it stays as it is written.
+
+    It is compiled into each kernel that calls it, without what makes it ready for Python, which
+    takes as long as a small function itself.
+    """
+    return cast(Function, register_jitable(function))
 
 
 def unsigned(indices: NDArray[Any]) -> NDArray[Any]:

@@ -63,48 +63,42 @@ def _fill(
 ) -> None:
     """Fill the CSR arrays: in each row the smaller neighbours, the diagonal, the larger ones.
 
-    ``indptr`` comes as zeros and holds the ends of the rows, until the last loop moves them.
-    For a Laplacian the values change their sign and are summed into the diagonal.
+    ``indptr`` comes as zeros and holds the ends of the rows, until the last loop moves them. When
+    row i begins, its smaller neighbours are in it, and in the sum on its diagonal. For a
+    Laplacian the values change their sign and are summed into the diagonal.
     """
     one, zero = np.uint64(1), np.uint64(0)
     own = np.uint64(diagonal.size > 0)
     sign = -1.0 if laplacian else 1.0
     n, p = np.uint64(indptr.size) - one, np.uint64(edges.shape[0])
-    e = zero
+    e = i = start = zero
     while e < p:
-        indptr[edges[e, 0]] += 1
-        indptr[edges[e, 1]] += 1
-        if laplacian:
-            diagonal[edges[e, 0]] += values[e]
-            diagonal[edges[e, 1]] += values[e]
+        indptr[edges[e, 0]] += one
+        indptr[edges[e, 1]] += one
         e += one
-    i = zero
-    start = np.uint64(0)
     while i < n:  # counts to starts
         size = np.uint64(indptr[i]) + own
         indptr[i] = start
         start += size
         i += one
-    e = zero
-    while e < p:
-        j = edges[e, 1]
-        q = np.uint64(indptr[j])
-        indices[q] = edges[e, 0]
-        data[q] = sign * values[e]
-        indptr[j] = q + one
-        e += one
     e = i = zero
     while i < n:
-        q = np.uint64(indptr[i])
-        if own:
-            indices[q] = i
-            data[q] = diagonal[i]
-            q += one
+        place = np.uint64(indptr[i])
+        total = diagonal[i] if own else 0.0
+        q = place + own
         while e < p and edges[e, 0] == i:
-            indices[q] = edges[e, 1]
-            data[q] = sign * values[e]
+            j, value = edges[e, 1], values[e]
+            indices[q], data[q] = j, sign * value
             q += one
             e += one
+            there = np.uint64(indptr[j])
+            indices[there], data[there] = i, sign * value
+            indptr[j] = there + one
+            if laplacian:
+                total += value
+                diagonal[j] += value
+        if own:
+            indices[place], data[place] = i, total
         indptr[i] = q
         i += one
     while i > zero:  # ends to starts

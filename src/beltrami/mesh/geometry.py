@@ -54,6 +54,9 @@ def well_scaled(positions: Floats) -> tuple[Floats, float]:
     MeshError
         If the coordinates are so large or small that an area is no number any more.
     """
+    squares = float(np.vdot(positions, positions))
+    if positions.size * 1e-100 < squares < 1e100:  # then so is the square of the largest
+        return positions, 1.0
     largest = float(np.abs(positions).max(initial=0.0))
     if largest == 0 or 1e-50 < largest < 1e50 or not np.isfinite(largest):
         return positions, 1.0

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beltrami._arrays import Integers, read_only, unwritten
-from beltrami._jit import kernel, unsigned
+from beltrami._jit import kernel, part_of_kernels, unsigned
 from beltrami.errors import MeshError
 from beltrami.mesh.numbering import BEHIND, number_edges
 
@@ -101,14 +101,13 @@ def _paired(corners: Any, n: int, room: int) -> HalfEdges | None:
     ends = unwritten(room + total + BEHIND, np.int64)
     words = unsigned(ends)
     sides = words[room:]
-    _fill_buckets(corners, cursors, sides)
     of_sides = unwritten((2, m, 3), np.int32)
     complete = total == 3 * m
     if not complete:  # faces that name a vertex twice have no sides
         of_sides[0], of_sides[1] = -1, BOUNDARY
     face_edges, twins = of_sides
-    p, boundary, crowded, disoriented = number_edges(
-        sides, cursors, sizes, room, words, face_edges.ravel(), twins.ravel()
+    p, boundary, crowded, disoriented = _fill_and_number(
+        corners, cursors, sizes, sides, room, words, face_edges.ravel(), twins.ravel()
     )
     if p < 0:
         return None
@@ -125,24 +124,44 @@ def _count_sides(faces: Any, sizes: Any, cursors: Any) -> Any:
     """
     one = np.uint64(1)
     m = np.uint64(faces.shape[0])
-    f = np.uint64(0)
-    sizes[:] = 0
+    n = np.uint64(sizes.size)
+    f = v = total = np.uint64(0)
+    while v < n:
+        sizes[v] = 0
+        v += one
     while f < m:
         i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
         if i != j and j != k and k != i:
-            sizes[min(i, j)] += 1
-            sizes[min(j, k)] += 1
-            sizes[min(k, i)] += 1
+            sizes[i if i < j else j] += one
+            sizes[j if j < k else k] += one
+            sizes[k if k < i else i] += one
         f += one
-    total = 0
-    for v in range(sizes.size):
+    v = np.uint64(0)
+    while v < n:
         cursors[v, 0] = total
-        total += sizes[v]
-        cursors[v, 1] = total - 1
+        total += np.uint64(sizes[v])
+        cursors[v, 1] = total - one
+        v += one
     return total
 
 
 @kernel
+def _fill_and_number(
+    faces: Any,
+    cursors: Any,
+    sizes: Any,
+    sides: Any,
+    room: Any,
+    ends: Any,
+    face_edges: Any,
+    twins: Any,
+) -> Any:
+    """Fill the buckets, and number the edges in them: see ``number_edges``."""
+    _fill_buckets(faces, cursors, sides)
+    return number_edges(sides, cursors, sizes, room, ends, face_edges, twins)
+
+
+@part_of_kernels
 def _fill_buckets(faces: Any, cursors: Any, sides: Any) -> None:
     """Fill the buckets: from the front with sides that run upwards, from the back with others.
 
@@ -161,10 +180,11 @@ def _fill_buckets(faces: Any, cursors: Any, sides: Any) -> None:
         f += one
 
 
-@kernel
+@part_of_kernels
 def _put(a: Any, b: Any, h: Any, cursors: Any, sides: Any) -> None:
     """Put the half-edge h from a to b into its bucket."""
-    low, down = min(a, b), np.uint64(b < a)
+    low, high = (b, a) if b < a else (a, b)
+    down = np.uint64(b < a)
     place = cursors[low, down]
-    sides[np.uint64(place)] = (max(a, b) << np.uint64(32)) | h
+    sides[np.uint64(place)] = (high << np.uint64(32)) | h
     cursors[low, down] = place + np.uint32(np.uint64(1) - down - down)

@@ -6,20 +6,21 @@ from typing import Any
 
 import numpy as np
 
-from beltrami._jit import kernel
+from beltrami._jit import part_of_kernels
 from beltrami.mesh.lanes import LANES, below, bits_in, first_bit, will_write
 
 AHEAD = 48  # sides: how early the memory of their results is asked for
-BEHIND = AHEAD + LANES + 2  # words that are read, and not used, behind the last side
+BEHIND = AHEAD + LANES + 2  # words behind the last side, which are read and not used, or scratch
+NO_ROOM = np.uint64(2**64 - 1)
 
 # A side is one integer: its larger vertex times 2³², plus its half-edge. In the bucket of a vertex
-# those that run upwards, from the smaller to the larger vertex, lie before the others. Buckets are
-# of three kinds. On an oriented manifold each upward side has one downward side with the same
-# larger vertex, but at the boundary; there are three of each on average, and they are compared
-# eight at a time. Few sides of any kind are compared with all of them. The rest are sorted.
+# those that run upwards, from the smaller to the larger vertex, lie before the others. On an
+# oriented manifold each upward side has one downward side with the same larger vertex, but at the
+# boundary; there are three of each on average, and they are compared eight at a time. Buckets of
+# another kind are sorted: few sides are compared with all of them to tell their places.
 
 
-@kernel
+@part_of_kernels
 def number_edges(
     sides: Any, starts: Any, sizes: Any, room: Any, ends: Any, face_edges: Any, twins: Any
 ) -> Any:
@@ -32,7 +33,7 @@ def number_edges(
     one, free = np.uint64(1), np.uint64(room)
     n = np.uint64(sizes.size)
     low = p = begin = np.uint64(0)
-    boundary = crowded = disoriented = np.int64(0)
+    boundary = crowded = disoriented = np.uint64(0)
     while low < n:
         end, middle = begin + np.uint64(sizes[low]), np.uint64(starts[low, 0])
         free_edges = (free + begin - p - p) >> one  # that may be written before the bucket is read
@@ -41,23 +42,21 @@ def number_edges(
         if size + size == end - begin and _number_pairs(bucket, sides, ends, face_edges, twins):
             p += size
         else:
-            edges, single, many, alike = _number_few(bucket, sides, ends, face_edges, twins)
-            if edges < 0:
-                edges, single, many, alike = _number_sorted(
-                    bucket, sides, free, ends, face_edges, twins
-                )
-            if edges < 0:
+            first = _sort(bucket, sides, face_edges, twins)
+            p, single, many, alike = _number_sorted(
+                bucket, first, sides, free, ends, face_edges, twins
+            )
+            if p == NO_ROOM:
                 return -1, 0, 0, 0
-            p += np.uint64(edges)
             boundary += single
             crowded += many
             disoriented += alike
         begin = end
         low += one
-    return np.int64(p), boundary, crowded, disoriented
+    return np.int64(p), np.int64(boundary), np.int64(crowded), np.int64(disoriented)
 
 
-@kernel
+@part_of_kernels
 def _number_pairs(bucket: Any, sides: Any, ends: Any, face_edges: Any, twins: Any) -> Any:
     """Pair the sides of a bucket; say whether each upward one has one downward one."""
     low, begin, middle, _, p, free_edges = bucket
@@ -93,116 +92,45 @@ def _number_pairs(bucket: Any, sides: Any, ends: Any, face_edges: Any, twins: An
     return seen == inside  # then no two upward sides are the same
 
 
-@kernel
-def _among(address: Any, bound: Any) -> Any:
-    """Compare two times eight words with a bound."""
-    lanes, word = np.uint64(LANES), np.uint64(8)
-    return below(address, bound) | (below(address + lanes * word, bound) << lanes)
-
-
-@kernel
-def _number_few(bucket: Any, sides: Any, ends: Any, face_edges: Any, twins: Any) -> Any:
-    """Compare each side with all, in a bucket of any kind; -1 if there are too many of them."""
-    low, begin, middle, end, p, free_edges = bucket
-    one, half, code = np.uint64(1), np.uint64(32), np.uint64(0xFFFFFFFF)
-    size = end - begin
-    if size > np.uint64(2 * LANES):
-        return -1, 0, 0, 0
-    four = np.uint64(4)
-    at_edges, at_twins = np.uint64(face_edges.ctypes.data), np.uint64(twins.ctypes.data)
-    address = np.uint64(sides.ctypes.data) + np.uint64(8) * begin
-    inside, upwards = (one << size) - one, (one << (middle - begin)) - one
-    firsts, bit = np.uint64(0), one  # the first side of each edge
-    q, soon = begin, begin + np.uint64(AHEAD)
-    while q < end:
-        later = four * (sides[soon] & code)
-        will_write(at_edges + later)
-        will_write(at_twins + later)
-        soon += one
-        bound = sides[q] & ~code
-        same = (_among(address, bound + code + one) ^ _among(address, bound)) & inside
-        firsts |= bit * np.uint64(same & (bit - one) == np.uint64(0))
-        bit += bit
-        q += one
-    edges = bits_in(firsts)
-    if edges > free_edges:
-        return -1, 0, 0, 0
-    boundary = crowded = disoriented = np.int64(0)
-    q, bit = begin, one
-    while q < end:
-        bound, here = sides[q] & ~code, sides[q] & code
-        less = _among(address, bound) & inside
-        same = (_among(address, bound + code + one) & inside) ^ less
-        edge, faces = p + bits_in(less & firsts), bits_in(same)
-        face_edges[here] = edge
-        twins[here] = -1 if faces == one else -2
-        if faces == one + one:
-            twins[here] = sides[begin + first_bit(same ^ bit)] & code
-        if firsts & bit:
-            ends[edge + edge], ends[edge + edge + one] = low, bound >> half
-            boundary += np.int64(faces == one)
-            crowded += np.int64(faces > one + one)
-            disoriented += np.int64(faces == one + one and bits_in(same & upwards) != one)
-        bit += bit
-        q += one
-    return np.int64(edges), boundary, crowded, disoriented
-
-
-@kernel
-def _number_sorted(
-    bucket: Any, sides: Any, free: Any, ends: Any, face_edges: Any, twins: Any
-) -> Any:
+@part_of_kernels
+def _sort(bucket: Any, sides: Any, face_edges: Any, twins: Any) -> Any:
     """Sort the sides of any bucket: then neighbours are the sides of one edge.
 
-    Here a side is its larger vertex times 2³² plus twice its half-edge, plus 1 if it runs up.
+    Returns where they begin: behind all others, if they are few. They are written as their larger
+    vertex times 2³² plus twice their half-edge, plus 1 if they run up.
     """
-    low, begin, middle, end, p, _ = bucket
-    before = p
-    one, half, code = np.uint64(1), np.uint64(32), np.uint64(0xFFFFFFFF)
-    q = begin
+    _, begin, middle, end, _, _ = bucket
+    one, word, code = np.uint64(1), np.uint64(8), np.uint64(0xFFFFFFFF)
+    lanes, four = np.uint64(LANES), np.uint64(4)
+    few = end - begin <= lanes + lanes
+    first = np.uint64(sides.size) - lanes - lanes if few else begin
+    at_edges, at_twins = np.uint64(face_edges.ctypes.data), np.uint64(twins.ctypes.data)
+    address = np.uint64(sides.ctypes.data) + word * begin
+    inside = (one << (end - begin)) - one
+    q, place, soon = begin, first, begin + np.uint64(AHEAD)
     while q < end:
-        sides[q] += (sides[q] & code) + np.uint64(q < middle)
+        side = sides[q]
+        if few:
+            later = four * (sides[soon] & code)
+            will_write(at_edges + later)
+            will_write(at_twins + later)
+            soon += one
+            lower = below(address, side) | (below(address + word * lanes, side) << lanes)
+            place = first + bits_in(lower & inside)
+        sides[place] = side + (side & code) + np.uint64(q < middle)
+        place += one
         q += one
-    _sort(sides, begin, end)
-    boundary = crowded = disoriented = np.int64(0)
-    q = begin
-    while q < end:
-        high, first = sides[q] >> half, sides[q] & code
-        face_edges[first >> one] = p
-        start = q
-        q += one
-        if q < end and sides[q] >> half == high:
-            second = sides[q] & code
-            face_edges[second >> one] = p
-            twins[first >> one] = second >> one
-            twins[second >> one] = first >> one
-            q += one
-            if q < end and sides[q] >> half == high:
-                crowded += 1
-                while q < end and sides[q] >> half == high:
-                    face_edges[(sides[q] & code) >> one] = p
-                    q += one
-                for s in range(start, q):
-                    twins[(sides[s] & code) >> one] = -2
-            else:
-                disoriented += np.int64((first ^ second ^ one) & one)
-        else:
-            boundary += 1
-            twins[first >> one] = -1
-        if p + p + one >= free + q:
-            return -1, 0, 0, 0
-        ends[p + p] = low
-        ends[p + p + one] = high
-        p += one
-    return np.int64(p - before), boundary, crowded, disoriented
+    if not few:
+        _sort_many(sides, begin, end)
+    return first
 
 
-@kernel
-def _sort(words: Any, begin: Any, end: Any) -> None:
-    """Sort a slice in place (Shell's method): few words as a rule, but perhaps many."""
-    gap, one, three = np.uint64(1), np.uint64(1), np.uint64(3)
-    while gap * three + begin < end:
-        gap = gap * three + one
+@part_of_kernels
+def _sort_many(words: Any, begin: Any, end: Any) -> None:
+    """Sort a slice in place (Shell's method)."""
+    gap = one = np.uint64(1)
+    while gap + begin < end:
+        gap += gap + one
     while gap:
         q = begin + gap
         while q < end:
@@ -212,4 +140,45 @@ def _sort(words: Any, begin: Any, end: Any) -> None:
                 r -= gap
             words[r] = word
             q += one
-        gap //= three
+        gap >>= one
+
+
+@part_of_kernels
+def _number_sorted(
+    bucket: Any, first: Any, sides: Any, free: Any, ends: Any, face_edges: Any, twins: Any
+) -> Any:
+    """Give numbers to the edges of a bucket whose sides are sorted, from the place ``first`` on.
+
+    Returns the next number, or ``NO_ROOM``, and how many edges are of which kind.
+    """
+    low, begin, _, end, p, _ = bucket
+    one, half, code = np.uint64(1), np.uint64(32), np.uint64(0xFFFFFFFF)
+    boundary = crowded = disoriented = np.uint64(0)
+    q, stop = first, first + end - begin
+    while q < stop:
+        high, side = sides[q] >> half, sides[q] & code
+        here, r = side >> one, q + one
+        while r < stop and sides[r] >> half == high:
+            r += one
+        if r - q == one + one:
+            other = sides[q + one] & code
+            there = other >> one
+            face_edges[here], twins[here] = p, there
+            face_edges[there], twins[there] = p, here
+            disoriented += (side ^ other ^ one) & one
+        elif r - q == one:
+            face_edges[here], twins[here] = p, -1
+            boundary += one
+        else:
+            crowded += one
+            while q < r:
+                here = (sides[q] & code) >> one
+                face_edges[here], twins[here] = p, -2
+                q += one
+        q = r
+        read = q if first == begin else end
+        if p + p + one >= free + read:
+            return NO_ROOM, boundary, crowded, disoriented
+        ends[p + p], ends[p + p + one] = low, high
+        p += one
+    return p, boundary, crowded, disoriented

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
-from beltrami._jit import kernel
+from beltrami._jit import part_of_kernels
 
 BARYCENTRIC, VORONOI, CIRCUMCENTRIC = 0, 1, 2
 
 
-@kernel
+@part_of_kernels
 def measure(x: Any, i: int, j: int, k: int) -> Any:
     """Return the dot products of the sides at the corners i, j, k, and twice the area.
 
@@ -17,24 +18,29 @@ def measure(x: Any, i: int, j: int, k: int) -> Any:
     sum of the dot products at its two ends. Both keep their digits in needles, where formulas in
     the lengths lose them.
     """
-    ux, uy, uz = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1], x[j, 2] - x[i, 2]
-    vx, vy, vz = x[k, 0] - x[j, 0], x[k, 1] - x[j, 1], x[k, 2] - x[j, 2]
-    wx, wy, wz = x[i, 0] - x[k, 0], x[i, 1] - x[k, 1], x[i, 2] - x[k, 2]
+    ix, iy, iz = x[i, 0], x[i, 1], x[i, 2]
+    jx, jy, jz = x[j, 0], x[j, 1], x[j, 2]
+    kx, ky, kz = x[k, 0], x[k, 1], x[k, 2]
+    ux, uy, uz = jx - ix, jy - iy, jz - iz
+    vx, vy, vz = kx - jx, ky - jy, kz - jz
+    wx, wy, wz = ix - kx, iy - ky, iz - kz
     at_i = -(ux * wx + uy * wy + uz * wz)
     at_j = -(ux * vx + uy * vy + uz * vz)
     at_k = -(vx * wx + vy * wy + vz * wz)
     cx, cy, cz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
-    return at_i, at_j, at_k, (cx * cx + cy * cy + cz * cz) ** 0.5
+    return at_i, at_j, at_k, math.sqrt(cx * cx + cy * cy + cz * cz)
 
 
-@kernel
+@part_of_kernels
 def is_flat(at_i: float, at_j: float, at_k: float, double: float) -> bool:
     """Whether area <= 1e-12 (longest side)², the bound of ``degenerate_faces``; true for NaN."""
-    longest = max(at_i + at_j, at_j + at_k, at_k + at_i)
+    on_ij, on_jk, on_ki = at_i + at_j, at_j + at_k, at_k + at_i
+    longest = on_ij if on_ij > on_jk else on_jk
+    longest = longest if longest > on_ki else on_ki
     return not (double > 2e-12 * longest)
 
 
-@kernel
+@part_of_kernels
 def shares(at_i: float, at_j: float, at_k: float, double: float, kind: int) -> Any:
     """Return the parts of the area of a triangle that belong to its corners; they add to it.
 

@@ -52,23 +52,26 @@ def accumulate(mesh: Mesh, cotangents: bool, areas: int) -> tuple[Floats, Floats
 @kernel
 def _accumulate(
     x: Any, corners: Any, faces: Any, face_edges: Any, areas: int, weights: Any, sums: Any
-) -> int:
+) -> Any:
     """Add up the faces; return how many of them are flat."""
-    flat = 0
+    one = np.uint64(1)
+    flat = f = np.uint64(0)
+    m = np.uint64(corners.shape[0])
     with_weights = weights.size > 0
-    for f in range(corners.shape[0]):
+    while f < m:
         at_i, at_j, at_k, double = measure(x, corners[f, 0], corners[f, 1], corners[f, 2])
         if is_flat(at_i, at_j, at_k, double):
-            flat += 1
-            continue
-        if with_weights:
-            half = 0.5 / double
-            weights[face_edges[f, 0]] += at_i * half
-            weights[face_edges[f, 1]] += at_j * half
-            weights[face_edges[f, 2]] += at_k * half
-        if areas >= 0:
-            of_i, of_j, of_k = shares(at_i, at_j, at_k, double, areas)
-            sums[faces[f, 0]] += of_i
-            sums[faces[f, 1]] += of_j
-            sums[faces[f, 2]] += of_k
+            flat += one
+        else:
+            if with_weights:
+                half = 0.5 / double
+                weights[face_edges[f, 0]] += at_i * half
+                weights[face_edges[f, 1]] += at_j * half
+                weights[face_edges[f, 2]] += at_k * half
+            if areas >= 0:
+                of_i, of_j, of_k = shares(at_i, at_j, at_k, double, areas)
+                sums[faces[f, 0]] += of_i
+                sums[faces[f, 1]] += of_j
+                sums[faces[f, 2]] += of_k
+        f += one
     return flat
