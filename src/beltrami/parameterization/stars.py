@@ -40,18 +40,20 @@ class Stars:
     after: Integers
     movable: Integers
 
-    def swept(self, x: Floats, scale: float, count: int) -> Floats:
+    def swept(self, x: Floats, scale: float, count: int, chosen: Booleans | None = None) -> Floats:
         """Return x after one step of Newton for each vertex, in turn, and this so many times.
 
         Only the symmetric Dirichlet energy of its faces falls; none of them folds. This evens out
         in no time what is rough, which stands in the way of all vertices moving at once, and does
         little for what is far. ``scale`` is what lengths of x are to be multiplied with for those
-        of the surface. Cost: O(n) each.
+        of the surface. Of the movable vertices only the ``chosen`` ones of a mask (n,) are moved,
+        if it is given. Cost: O(n) each, or as many as are moved.
         """
         moved = np.array(x)
+        movable = self.movable if chosen is None else self.movable[chosen[self.movable]]
         for _ in range(count):
             _sweep(
-                self.positions, moved, self.faces, self.first, self.after, self.movable,
+                self.positions, moved, self.faces, self.first, self.after, movable,
                 scale / self.unit,
             )  # fmt: skip
         return moved
