@@ -25,7 +25,7 @@ _LARGE = 5000  # vertices from which a coarser mesh comes first
 _COARSER = 4  # times fewer vertices
 _HARDLY = 1.5  # likewise: if no more can go, it does not pay
 _SWEEPS = 10  # over a map that is made of a coarser one
-_LOOSER = 1 / 4  # power of the size, over the least large one, by which a large mesh settles sooner
+_LOOSER = 0.15  # power of the size, over the least large one, by which a large mesh settles sooner
 
 
 def disk_map(
