@@ -8,7 +8,7 @@ import pytest
 from beltrami.errors import SingularMatrixError
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import cylinder, grid, icosphere, torus
-from beltrami.parameterization import relaxation
+from beltrami.parameterization import relaxation, stepping
 from beltrami.parameterization.block_pattern import block_pattern
 from beltrami.parameterization.certificate import certify
 from beltrami.parameterization.distortion import distortion
@@ -174,7 +174,7 @@ def test_the_boundary_does_not_cross_itself(monkeypatch):
     assert certify(wound.topology, x).is_bijective
     before = distortion(wound, start.vertices).symmetric_dirichlet
     assert distortion(wound, x).symmetric_dirichlet < before
-    monkeypatch.setattr(relaxation, "crossings", lambda x, edges: edges[:0])
+    monkeypatch.setattr(stepping, "crossings", lambda x, edges: edges[:0])
     unchecked = certify(wound.topology, relax(wound, start.vertices, 60, None, 1e-4)[0])
     assert len(unchecked.flipped) == 0
     assert len(unchecked.crossings) > 0

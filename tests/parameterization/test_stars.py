@@ -28,7 +28,7 @@ def star(mesh, x, v):
     for face in mesh.faces[(mesh.faces == v).any(axis=1)]:
         _, a, b = np.roll(face, -int(np.flatnonzero(face == v)[0]))
         sides.append([*x[a], *x[b]])
-        rest.append(np.empty(3))
+        rest.append(np.empty(4))
         at_rest(mesh.vertices, v, a, b, rest[-1])
     return np.array(sides), np.array(rest)
 

@@ -42,7 +42,7 @@ def _insert(positions: Any, x: Any, removed: Any, starts: Any, rings: Any, scale
     for t in range(removed.size):
         widest = max(widest, starts[t + 1] - starts[t])
     corners, spare = np.empty((2 * widest + 4, 2)), np.empty((2 * widest + 4, 2))
-    sides, rest = np.empty((widest, 4)), np.empty((widest, 3))
+    sides, rest = np.empty((widest, 4)), np.empty((widest, 4))
     for t in range(removed.size - 1, -1, -1):
         v, k = removed[t], starts[t + 1] - starts[t]
         ring = rings[starts[t] : starts[t + 1]]

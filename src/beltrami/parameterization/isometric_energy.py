@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Booleans, Floats
 from beltrami._jit import kernel
 from beltrami.mesh.mesh import Mesh
 from beltrami.parameterization.block_pattern import BlockPattern
@@ -53,6 +53,16 @@ class IsometricEnergy:
         )  # fmt: skip
         return gradient, entries
 
+    def gradient(self, x: Floats, t: float, pattern: BlockPattern) -> Floats:
+        r"""Return the gradient at the free vertices, (free, 2), alone.
+
+        With the determinant D and the sum of squares Q of the Jacobian J of a face it is
+        :math:`2 A ((1 + D^{-2}) J - Q D^{-3} \operatorname{cof} J)` by J.
+        """
+        gradient = np.zeros((pattern.size // 2, 2))
+        _gradient(self.mesh.faces, t * self.slopes, self.areas, x, pattern.number, gradient)
+        return gradient
+
 
 def isometric_energy(mesh: Mesh) -> IsometricEnergy:
     """Prepare the energy of maps of a mesh; O(m)."""
@@ -88,6 +98,22 @@ def _sums(faces: Any, g: Any, areas: Any, x: Any) -> Any:
         grown += areas[f] * squares
         shrunk += areas[f] * (squares / determinant / determinant)
     return grown, shrunk
+
+
+@kernel
+def _gradient(faces: Any, g: Any, areas: Any, x: Any, number: Any, gradient: Any) -> None:
+    for f in range(faces.shape[0]):
+        a, b, c, d = _jacobian(faces[f], g[f], x)
+        determinant = a * d - b * c
+        inverse = 1 / determinant / determinant
+        along = 2 * areas[f] * (1 + inverse)
+        across = 2 * areas[f] * (a * a + b * b + c * c + d * d) * inverse / determinant
+        for k in range(3):
+            i = number[faces[f, k]]
+            if i >= 0:
+                p, q = g[f, k, 0], g[f, k, 1]
+                gradient[i, 0] += along * (a * p + b * q) - across * (d * p - c * q)
+                gradient[i, 1] += along * (c * p + d * q) - across * (a * q - b * p)
 
 
 @kernel
@@ -149,6 +175,23 @@ def _derivatives(
                 entries[slot + widths[i] + 1] += z * z * m00 + c * z * (m01 + m10) + c * c * m11
                 entries[slot + widths[i]] += c * z * (m00 - m11) - z * z * m01 + c * c * m10
                 entries[slot + 1] += c * z * (m00 - m11) + c * c * m01 - z * z * m10
+
+
+def shrinking(mesh: Mesh, x: Floats, direction: Floats, share: float) -> Booleans:
+    """Return (m,): whether x + direction leaves a face less than this share of its area."""
+    found = np.empty(mesh.n_faces, np.bool_)
+    _shrinking(mesh.faces, x, direction, share, found)
+    return found
+
+
+@kernel
+def _shrinking(faces: Any, x: Any, d: Any, share: float, found: Any) -> None:
+    for f in range(faces.shape[0]):
+        i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
+        ux, uy, vx, vy = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1], x[k, 0] - x[i, 0], x[k, 1] - x[i, 1]
+        px, py, qx, qy = d[j, 0] - d[i, 0], d[j, 1] - d[i, 1], d[k, 0] - d[i, 0], d[k, 1] - d[i, 1]
+        after = (ux + px) * (vy + qy) - (uy + py) * (vx + qx)
+        found[f] = not after >= share * (ux * vy - uy * vx)
 
 
 @kernel

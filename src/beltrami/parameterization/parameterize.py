@@ -22,7 +22,7 @@ from beltrami.parameterization.parameterization import Parameterization, certifi
 
 METHODS = ("auto", "tutte", "free", *CONFORMAL)
 DEFAULT_WEIGHTS: dict[str, tuple[str | Weigher, ...]] = {
-    "auto": ("clamped", "mean_value", "combinatorial"),
+    "auto": ("mean_value", "combinatorial", "clamped"),
     "tutte": ("mean_value",),
     "free": ("clamped", "mean_value", "combinatorial"),
 }

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -13,24 +15,26 @@ from beltrami.errors import BeltramiError
 from beltrami.mesh.mesh import Mesh
 from beltrami.parameterization.barrier import Barrier, boundary_barrier
 from beltrami.parameterization.block_pattern import BlockPattern, block_pattern
-from beltrami.parameterization.certificate import turns_left
-from beltrami.parameterization.crossings import crossings
 from beltrami.parameterization.isometric_energy import (
     IsometricEnergy,
-    first_collapse,
     isometric_energy,
+    shrinking,
 )
 from beltrami.parameterization.predicates import orientation
+from beltrami.parameterization.secants import Secant, descent, secant
 from beltrami.parameterization.stars import Stars, stars
+from beltrami.parameterization.stepping import stepped
 from beltrami.solvers.cholesky import factorize_cholesky
 from beltrami.solvers.elimination import Elimination
 from beltrami.solvers.factorize import factorize
 from beltrami.solvers.ordering import as_positions, order
 
-_SHORTEST = 1e-8  # of a step, before it is given up
-_LONGER = 1.5  # factor by which a step is made longer, as long as the energy falls
 _SHORT = 0.7  # steps below it are followed by sweeps
-_SWEEPS = 4
+_SWEEPS = 8
+_LEFT = 0.3  # they are around faces that a whole step would leave less than this of their area
+_KEPT = 3  # steps by one factor, if the boundary is held
+_FACTOR = 4.0  # what a factorisation costs, in steps without one
+_SLOWER = 0.5  # of the mean decrease for this cost: a step below it is the last by a factor
 _SHIFT = 1e-9  # of the Hessian, over its mean diagonal: moving and turning cost nothing
 
 
@@ -50,7 +54,9 @@ def relax(
     boundary does not cross itself nor turn inside out, all decided exactly, and the energy falls;
     or made longer, as long as it falls. A barrier lets a boundary slide along itself (see
     ``Barrier``). Where a step had to be short, a few rough places were in its way: the inner
-    vertices are moved one at a time, which evens these out (see ``Stars``).
+    vertices there are moved one at a time, which evens these out (see ``Stars``). If no boundary
+    moves, up to two cheaper steps follow by the same factor, corrected by what the steps before
+    have shown of the Hessian (see ``descent``): what is projected away is a part of it.
 
     Parameters
     ----------
@@ -59,42 +65,41 @@ def relax(
     uv
         (n, 2) a bijection to start from.
     steps
-        How many, at most.
+        How many of Newton, at most.
     held
         (n,) vertices that stay where they are, or none. A boundary that may move does not cross
         itself, nor one that is held.
     settled
-        It stops when the energy falls by less than this part of itself.
+        It stops when the energy falls by less than this part of itself in a step of Newton, or
+        for the same cost with those that follow it.
 
     Returns
     -------
     (n, 2) positions, in the unit of length of the mesh if nothing is held, and the number of
-    steps. What folds at the start is only scaled.
+    Newton's steps. What folds at the start is only scaled.
 
     Notes
     -----
-    One factorisation for each step, all in one order of elimination.
+    One factorisation for each step of Newton, all in one order of elimination.
     """
     energy = isometric_energy(mesh)
     free = np.ones(mesh.n_vertices, np.bool_) if held is None else ~held
     x, done = uv, 0
-    sums, around = energy.sums(x), stars(mesh, free)
+    sums = energy.sums(x)
     if free.any() and all(map(math.isfinite, sums)):
-        pattern, plan = block_pattern(mesh, free), None
         loose = bool(free[mesh.topology.on_boundary].any())
+        around, pattern, plan = stars(mesh, free), block_pattern(mesh, free), None
         while done < steps:
             t = best_scale(sums)
             barrier = boundary_barrier(mesh, x) if loose else None
-            direction, slope, plan = _newton(energy, x, t, barrier, pattern, plan)
-            found = _shortened(energy, x, t, barrier, direction, slope)
+            model, plan = _model(energy, x, t, barrier, pattern, plan)
+            found = _descended(model, x, 1 if loose else _KEPT, around)
             if found is None:
                 break
             done += 1
-            x, before, after, step = found
-            if step < _SHORT:
-                x, after = _evened(energy, x, t, around, after)
+            x, before, after, cost = found
             sums = energy.sums(x)
-            if after > (1 - settled) * before:
+            if before - after < settled * before * cost / (_FACTOR + 1):
                 break
     return (x if held is not None else x * best_scale(sums)), done
 
@@ -105,16 +110,27 @@ def best_scale(sums: tuple[float, float]) -> float:
     return float(ratio**0.25) if math.isfinite(ratio) and ratio > 0 else 1.0
 
 
-def _newton(
+@dataclass(frozen=True, eq=False)
+class _Model:
+    """The energy around some positions: its gradient there, and how to divide by the Hessian."""
+
+    energy: IsometricEnergy
+    scale: float
+    barrier: Barrier | None
+    pattern: BlockPattern
+    gradient: Floats
+    solve: Callable[[Floats], Floats]
+
+
+def _model(
     energy: IsometricEnergy,
     x: Floats,
     t: float,
     barrier: Barrier | None,
     pattern: BlockPattern,
     plan: Elimination | None,
-) -> tuple[Floats, float, Elimination]:
-    """Return the direction of Newton's step, the slope along it, and the order of elimination."""
-    free = pattern.number >= 0
+) -> tuple[_Model, Elimination]:
+    """Return the model around x, and the order of elimination."""
     gradient, entries = energy.derivatives(x, t, pattern)
     if barrier is not None:
         barrier.add_derivatives(x, pattern, gradient, entries)
@@ -123,78 +139,68 @@ def _newton(
     )
     entries[diagonal] += _SHIFT * entries[diagonal].mean()
     H = pattern.matrix(entries)
-    positions = np.repeat(energy.mesh.vertices[free], 2, axis=0)
+    positions = np.repeat(energy.mesh.vertices[pattern.number >= 0], 2, axis=0)
     if plan is None:
         plan = order(H, as_positions(positions, pattern.size), "auto")
-    direction = np.zeros_like(x)
-    direction[free] = _solution(H, positions, plan, -gradient.ravel()).reshape(-1, 2)
-    return direction, float((gradient * direction[free]).sum()), plan
+    solve = _solver(H, positions, plan)
+    return _Model(energy, t, barrier, pattern, gradient.ravel(), solve), plan
 
 
-def _solution(H: csc_array, positions: Floats, plan: Elimination, right: Floats) -> Floats:
-    """Solve, in another way where a pivot is lost; 0 where that fails too: no step is made then."""
+def _solver(H: csc_array, positions: Floats, plan: Elimination) -> Callable[[Floats], Floats]:
+    """Factorise, in another way where a pivot is lost; 0 where that fails: no step is made then."""
     try:
-        return factorize_cholesky(H, plan).solve(right)
+        return factorize_cholesky(H, plan).solve
     except BeltramiError:
         with suppress(BeltramiError):
-            return factorize(H, positions, "superlu").solve(right)
-    return np.zeros_like(right)
+            return factorize(H, positions, "superlu").solve
+    return np.zeros_like
+
+
+def _descended(
+    model: _Model, x: Floats, count: int, around: Stars
+) -> tuple[Floats, float, float, float] | None:
+    """Make up to so many steps; return positions, energies before and after, and the cost."""
+    free = model.pattern.number >= 0
+    gradient, moved = model.gradient, np.zeros(0)
+    secants: list[Secant] = []
+    start = after = math.inf
+    cost = _FACTOR
+    for made in range(count):
+        if made:
+            ahead = model.energy.gradient(x, model.scale, model.pattern).ravel()
+            seen = secant(moved, ahead - gradient)
+            secants, gradient = secants + ([] if seen is None else [seen]), ahead
+        direction = np.zeros_like(x)
+        direction[free] = descent(gradient, secants, model.solve).reshape(-1, 2)
+        slope = float(gradient @ direction[free].ravel())
+        found = stepped(model.energy, x, model.scale, model.barrier, direction, slope)
+        if found is None:
+            break
+        y, before, after, step = found
+        if step < _SHORT:
+            y, after = _evened(model, x, y, direction, around, after)
+        moved, x = (y - x)[free].ravel(), y
+        start, cost = (start if made else before), cost + 1
+        if before - after < _SLOWER * (start - after) / cost:
+            break
+    return None if math.isinf(start) else (x, start, after, cost)
 
 
 def _evened(
-    energy: IsometricEnergy, x: Floats, t: float, around: Stars, before: float
+    model: _Model, x: Floats, y: Floats, direction: Floats, around: Stars, before: float
 ) -> tuple[Floats, float]:
-    """Sweep over the inner vertices; return the positions, and what the energy becomes."""
-    moved = around.swept(x, t, _SWEEPS)
-    a, b, c = moved[energy.mesh.faces].transpose(1, 0, 2)
-    (grown, shrunk), (grown_before, shrunk_before) = energy.sums(moved), energy.sums(x)
+    """Sweep where a step from x was in its own way; return positions, and what the energy becomes.
+
+    That is around the faces that the whole step would have left little of.
+    """
+    energy, t = model.energy, model.scale
+    faces, rough = energy.mesh.faces, np.zeros(len(x), np.bool_)
+    rough[faces[shrinking(energy.mesh, x, direction, _LEFT)]] = True
+    rough[faces[rough[faces].any(axis=1)]] = True
+    moved = around.swept(y, t, _SWEEPS, rough)
+    a, b, c = moved[faces].transpose(1, 0, 2)
+    (grown, shrunk), (grown_before, shrunk_before) = energy.sums(moved), energy.sums(y)
     change = (grown - grown_before) * t**2 + (shrunk - shrunk_before) / t**2
     if not change < 0 or (orientation(a, b, c) <= 0).any():
-        return x, before
+        return y, before
     return moved, before + change
-
-
-def _shortened(
-    energy: IsometricEnergy,
-    x: Floats,
-    t: float,
-    barrier: Barrier | None,
-    direction: Floats,
-    slope: float,
-) -> tuple[Floats, float, float, float] | None:
-    """Return positions after the longest allowed step, energies before and after, and the step."""
-    mesh = energy.mesh
-    edges = mesh.edges[:0] if barrier is None else barrier.edges
-    longest = 0.9 * first_collapse(mesh, x, direction)
-    step = min(1.0, longest)
-
-    def total(y: Floats) -> float:
-        grown, shrunk = energy.sums(y)
-        return grown * t**2 + shrunk / t**2 + (0.0 if barrier is None else barrier.energy(y))
-
-    start, here = total(x), total(x + step * direction)
-    while here < start and _LONGER * step < longest:
-        farther = total(x + _LONGER * step * direction)
-        if not farther < here:
-            break
-        step, here = _LONGER * step, farther
-    while step > _SHORTEST:
-        if here < start + 1e-4 * step * slope:
-            moved = x + step * direction
-            a, b, c = moved[mesh.faces].transpose(1, 0, 2)
-            upright = (orientation(a, b, c) > 0).all() and not len(crossings(moved, edges))
-            if upright and (barrier is None or _as_before(mesh, x, moved)):
-                return moved, start, here, step
-        step /= 2
-        here = total(x + step * direction)
-    return None
-
-
-def _as_before(mesh: Mesh, x: Floats, moved: Floats) -> bool:
-    """Whether each loop runs the same way round as at x.
-
-    Two edges of the boundary with a common end may sweep over each other in one step: no face is
-    turned over, nothing crosses any more, but around a hole the image lies twice.
-    """
-    loops = mesh.topology.boundary_loops
-    return all(turns_left(moved[loop]) == turns_left(x[loop]) for loop in loops)

@@ -8,14 +8,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import Booleans, Integers
+from beltrami._arrays import Booleans, Floats, Integers
 from beltrami._jit import kernel
+from beltrami.mesh.cut import shortest_paths
 from beltrami.mesh.geometry import well_scaled
 from beltrami.mesh.mesh import Mesh
 from beltrami.parameterization.stars import corner_lists
 
 _SHARE = 0.2  # of the vertices that remain: so many may be near the boundary
 _RINGS = 3  # of vertices around the boundary that stay, where these are no more
+_GRADE = 0.25  # of the distance from such a boundary: edges longer than that are not made
 _WIDEST = 12  # neighbours of a vertex that goes, at most
 _PASSES = 16  # over all vertices, at most
 _FEWEST = 0.02  # vertices that go in a pass, at least, for another one
@@ -52,8 +54,10 @@ def thinned(mesh: Mesh, count: int) -> Thinned:
     a disk remains one, with the same boundary, and no more edges across from it to itself. Of its
     neighbours it is the one with the best shape of the new faces, and none where these were
     slivers or of another area, as on the tip of a spike. In a pass no two neighbours go, so that
-    the mesh thins out evenly. Around a short boundary, where maps are worst, none goes at all.
-    Cost: O(n).
+    the mesh thins out evenly. Around a short boundary, where maps are worst, none goes at all, and
+    farther away edges become as long as their distance from it allows: its surroundings are
+    stretched over the more of the image the nearer they are, and each doubling of the distance
+    takes the same number of vertices. Cost: O(n), O(n log n) if the boundary is short.
     """
     faces = np.array(mesh.faces)
     n = mesh.n_vertices
@@ -61,8 +65,9 @@ def thinned(mesh: Mesh, count: int) -> Thinned:
     removed, starts = np.empty(n, np.int64), np.zeros(n + 1, np.int64)
     rings = np.empty(_WIDEST * n, np.int32)
     alive = np.ones(len(faces), np.bool_)
+    x, unit = well_scaled(mesh.vertices)
     gone = _thin(
-        well_scaled(mesh.vertices)[0], faces, mesh.topology.on_boundary, fixed, n - count, alive,
+        x, faces, mesh.topology.on_boundary, fixed, _longest(mesh, fixed) / unit, n - count, alive,
         removed, starts, rings,
     )  # fmt: skip
     kept = np.ones(n, np.bool_)
@@ -85,10 +90,18 @@ def _near_boundary(mesh: Mesh, most: float) -> Booleans:
     return near
 
 
+def _longest(mesh: Mesh, fixed: Booleans) -> Floats:
+    """Say how long the edges may be that are made where a vertex goes."""
+    rim = mesh.topology.on_boundary
+    if fixed.sum() == rim.sum():
+        return np.full(len(rim), np.inf)
+    return _GRADE * shortest_paths(mesh, np.flatnonzero(rim))[0]
+
+
 @kernel
 def _thin(
-    x: Any, faces: Any, rim: Any, fixed: Any, most: int, alive: Any, removed: Any, starts: Any,
-    rings: Any,
+    x: Any, faces: Any, rim: Any, fixed: Any, longest: Any, most: int, alive: Any, removed: Any,
+    starts: Any, rings: Any,
 ) -> int:  # fmt: skip
     """Write the vertices that go, and their rings; return how many. Faces are changed."""
     n = fixed.size
@@ -106,7 +119,7 @@ def _thin(
             k = _ring(v, faces, first, after, ring)
             if k < 3:
                 continue
-            w = _target(x, v, ring, k, rim, faces, first, after, seen)
+            w = _target(x, v, ring, k, rim, longest[v], faces, first, after, seen)
             if w < 0:
                 continue
             for q in range(k):
@@ -148,8 +161,9 @@ def _ring(v: int, faces: Any, first: Any, after: Any, ring: Any) -> int:
 
 @kernel
 def _target(
-    x: Any, v: int, ring: Any, k: int, rim: Any, faces: Any, first: Any, after: Any, seen: Any
-) -> int:
+    x: Any, v: int, ring: Any, k: int, rim: Any, longest: float, faces: Any, first: Any, after: Any,
+    seen: Any,
+) -> int:  # fmt: skip
     """Return the neighbour that a vertex goes into, or -1."""
     around = 0.0
     for q in range(k):
@@ -163,7 +177,7 @@ def _target(
             area, squares = _area(x, w, a, b), _squares(x, w, a, b)
             total += area
             worst = min(worst, _EQUILATERAL * area / squares) if squares > 0 else 0.0
-            if rim[w] and rim[a] and q > 1:
+            if q > 1 and ((rim[w] and rim[a]) or _far(x, w, a, longest)):
                 worst = 0.0
         if not worst > best or not abs(total - around) <= _CHANGE * around:
             continue
@@ -219,6 +233,14 @@ def _unlink(v: int, corner: int, first: Any, after: Any) -> None:
     while after[c] != corner:
         c = after[c]
     after[c] = after[corner]
+
+
+@kernel
+def _far(x: Any, i: int, j: int, distance: float) -> Any:
+    square = 0.0
+    for c in range(x.shape[1]):
+        square += (x[j, c] - x[i, c]) ** 2
+    return square > distance * distance
 
 
 @kernel
