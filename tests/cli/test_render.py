@@ -30,6 +30,20 @@ def test_a_function_gives_colours(beltrami, sphere, tmp_path):
     assert (blue - red).max() > 60  # ... blue where it is negative
 
 
+def test_missing_values_have_the_colour_that_is_asked_for(beltrami, sphere, tmp_path):
+    f = read_mesh(sphere).vertices[:, 1] + 2
+    f[f > 2] = np.nan
+    np.save(tmp_path / "f.npy", f)
+    given = ("render", sphere, "--data", tmp_path / "f.npy", "-o", tmp_path / "p.png")
+    done = beltrami(*given)
+    assert done.exit_code == 1
+    assert "NaN" in done.stderr
+    assert beltrami(*given, "--missing", "#00ff00", "--size", 90, 60).exit_code == 0
+    with Image.open(tmp_path / "p.png") as picture:
+        red, green, blue = np.asarray(picture.convert("RGB"), dtype=int)[:60].transpose(2, 0, 1)
+    assert ((green > 60) & (red == 0) & (blue == 0)).any()
+
+
 @pytest.mark.parametrize(
     ("arguments", "code", "text"),
     [

@@ -23,7 +23,11 @@ from beltrami.mesh.mesh import Mesh
 _MESHIO = (".vtk", ".vtu", ".msh", ".mesh", ".inp")
 _GLTF = (".glb", ".gltf")
 _UV = "texture coordinates of a package"  # among the vertex data, until the mesh is made
-_FREESURFER = (".pial", ".white", ".inflated", ".sphere", ".orig", ".smoothwm")
+_FREESURFER = (
+    ".pial", ".white", ".inflated", ".sphere", ".reg", ".orig", ".smoothwm", ".nofix", ".graymid",
+    ".midthickness",
+)  # fmt: skip
+SINGLE = (".gii", *_FREESURFER)  # what holds coordinates of 32 bits
 
 
 def read(path: str | os.PathLike[str], suffix: str, max_bytes: int | None = None) -> Mesh:
@@ -125,6 +129,14 @@ def _encode_gifti(mesh: Mesh, vertices: Floats, _suffix: str) -> bytes:
     return bytes(gifti.GiftiImage(darrays=[points, triangles]).to_bytes())
 
 
+def _encode_freesurfer(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
+    freesurfer = require("nibabel.freesurfer", "io", "writing FreeSurfer surfaces")
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder, "lh" + suffix)
+        freesurfer.write_geometry(place, vertices, mesh.faces, create_stamp="created by beltrami")
+        return place.read_bytes()
+
+
 def _encode_meshio(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
     meshio = require("meshio", "io", f"writing {suffix}")
     data = {name: array for name, array in mesh.vertex_data.items() if array.dtype.kind in "iuf"}
@@ -143,6 +155,7 @@ READERS: dict[str, Callable[[Path, Room], Any]] = {
 }
 WRITERS: dict[str, Callable[[Mesh, Floats, str], bytes]] = {
     ".gii": _encode_gifti,
+    **dict.fromkeys(_FREESURFER, _encode_freesurfer),
     ".vtk": _encode_meshio,
     ".vtu": _encode_meshio,
 }
