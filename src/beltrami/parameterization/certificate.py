@@ -100,11 +100,14 @@ def certify(domain: Mesh | Topology, uv: ArrayLike) -> Certificate:
     loops = topology.boundary_loops
     label = np.full(topology.n_vertices, -1)
     label[faces.ravel()] = np.repeat(topology.components(), 3)
+    own: list[list[Integers]] = [[] for _ in range(int(label.max(initial=-1)) + 1)]
+    for loop in loops:
+        own[label[loop[0]]].append(loop)
     return Certificate(
         read_only(np.flatnonzero(signs <= 0)),
         read_only(edges[met]),
-        _turned(x, loops, label),
-        read_only(_nested(x, loops, label)),
+        _turned(x, own),
+        read_only(_nested(x, own, label)),
     )
 
 
@@ -116,14 +119,12 @@ def as_map(uv: ArrayLike, n: int) -> Floats:
     return x
 
 
-def _turned(x: Floats, loops: tuple[Integers, ...], label: Integers) -> tuple[Integers, ...]:
+def _turned(x: Floats, loops: list[list[Integers]]) -> tuple[Integers, ...]:
     """Return the loops too many that run counter-clockwise, and those of components without one."""
-    ways = [turns_left(x[loop]) for loop in loops]
     wrong: list[Integers] = []
-    for component in range(int(label.max(initial=-1)) + 1):
-        own = [q for q, loop in enumerate(loops) if label[loop[0]] == component]
-        outer = [q for q in own if ways[q]]
-        wrong += [loops[q] for q in (outer[1:] if outer else own[:1])]
+    for own in loops:
+        outer = [loop for loop in own if turns_left(x[loop])]
+        wrong += outer[1:] if outer else own[:1]
     return tuple(wrong)
 
 
@@ -137,9 +138,9 @@ def turns_left(polygon: Floats) -> bool:
     return bool(orientation(a, b, c)[0] > 0)
 
 
-def _nested(x: Floats, loops: tuple[Integers, ...], label: Integers) -> Integers:
+def _nested(x: Floats, loops: list[list[Integers]], label: Integers) -> Integers:
     """Return pairs (inner, outer) of components whose boundary winds around another one."""
-    count = int(label.max(initial=-1)) + 1
+    count = len(loops)
     if count < 2:
         return np.zeros((0, 2), np.int64)
     named = np.flatnonzero(label >= 0)
@@ -152,8 +153,7 @@ def _nested(x: Floats, loops: tuple[Integers, ...], label: Integers) -> Integers
         point = x[named[first[inner]]]
         inside = ((low < point) & (point < high)).all(axis=1)
         for outer in np.flatnonzero(inside):
-            own = [loop for loop in loops if label[loop[0]] == outer]
-            if outer != inner and sum(_winding(x[loop], point) for loop in own):
+            if outer != inner and sum(_winding(x[loop], point) for loop in loops[outer]):
                 found.append((inner, int(outer)))
     return np.array(found, np.int64).reshape(-1, 2)
 
