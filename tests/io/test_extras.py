@@ -28,6 +28,17 @@ def test_round_trip(tmp_path, suffix):
         assert again.vertex_data["f"].tolist() == [0, 1, 2, 3]
 
 
+@pytest.mark.parametrize("suffix", [".vtk", ".vtu"])
+@pytest.mark.parametrize("kind", ["?", "u1", "i2", "i8", "u8", "f2", "f4", "f8", "g", ">f4"])
+def test_functions_of_every_type_come_back(tmp_path, suffix, kind):
+    pytest.importorskip("meshio")
+    f = np.array([0, 1, 0, 1.0]).astype(kind)
+    write_mesh(tmp_path / f"a{suffix}", Mesh(POINTS, FACES, {"f": f, "F": np.stack([f, f, f], 1)}))
+    data = read_mesh(tmp_path / f"a{suffix}").vertex_data
+    assert np.array_equal(data["f"], f)
+    assert np.array_equal(data["F"], np.stack([f, f, f], 1))
+
+
 def test_compressed_gifti(tmp_path):
     pytest.importorskip("nibabel")
     write_mesh(tmp_path / "a.gii", Mesh(POINTS, FACES))

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from beltrami._arrays import Floats
 from beltrami._optional import require
@@ -144,12 +145,22 @@ def _encode_freesurfer(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
 
 def _encode_meshio(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
     meshio = require("meshio", "io", f"writing {suffix}")
-    data = {name: array for name, array in mesh.vertex_data.items() if array.dtype.kind in "iuf"}
+    data = {name: _common(array) for name, array in mesh.vertex_data.items()}
     found = meshio.Mesh(np.array(vertices), [("triangle", np.array(mesh.faces))], point_data=data)
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder, "mesh" + suffix)
         found.write(place)
         return place.read_bytes()
+
+
+def _common(array: NDArray[Any]) -> NDArray[Any]:
+    """Return the array in a type that VTK has: truth values as bytes, as in PLY."""
+    kind = array.dtype
+    if kind.kind == "b":
+        return array.astype(np.uint8)
+    if kind.kind == "f" and kind.itemsize not in (4, 8):
+        return array.astype(np.float32 if kind.itemsize < 4 else np.float64)
+    return array
 
 
 def _encode_trimesh(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
