@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from beltrami._arrays import Floats
 from beltrami._optional import require
-from beltrami.errors import FileFormatError, MissingExtraError
+from beltrami.errors import FileFormatError, MeshError, MissingExtraError
 from beltrami.io.faces import fan, first_outside
 from beltrami.io.packed_inside import require_room
 from beltrami.io.picture import Picture, as_pillow
@@ -146,11 +146,28 @@ def _encode_freesurfer(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
 def _encode_meshio(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
     meshio = require("meshio", "io", f"writing {suffix}")
     data = {name: _common(array) for name, array in mesh.vertex_data.items()}
+    for name, array in data.items():
+        _require_holdable(name, array.shape[1:], suffix)
     found = meshio.Mesh(np.array(vertices), [("triangle", np.array(mesh.faces))], point_data=data)
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder, "mesh" + suffix)
         found.write(place)
         return place.read_bytes()
+
+
+def _require_holdable(name: str, columns: tuple[int, ...], suffix: str) -> None:
+    """Refuse what meshio would write so that it does not come back."""
+    unfit = "\t\r\n" + (" " if suffix == ".vtk" else '<&"')
+    if not name or any(sign in name for sign in unfit):
+        raise MeshError(
+            f"{name!r} cannot be the name of vertex data in a {suffix} file",
+            remedy="Give it a name of letters with mesh.with_data.",
+        )
+    if columns == (0,) or (columns == (2,) and suffix == ".vtk"):
+        raise MeshError(
+            f"a {suffix} file has no functions of {columns[0]} columns, as {name!r} is",
+            remedy="Write .ply, or other columns.",
+        )
 
 
 def _common(array: NDArray[Any]) -> NDArray[Any]:
