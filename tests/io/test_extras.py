@@ -7,7 +7,7 @@ import gzip
 import numpy as np
 import pytest
 
-from beltrami.errors import FileFormatError, MissingExtraError, NonFiniteError
+from beltrami.errors import FileFormatError, MeshError, MissingExtraError, NonFiniteError
 from beltrami.io import extras
 from beltrami.io.registry import read_mesh, write_mesh
 from beltrami.mesh.mesh import Mesh
@@ -25,6 +25,42 @@ def test_round_trip(tmp_path, suffix):
     assert again.faces.tolist() == FACES
     if suffix in (".vtk", ".vtu"):
         assert again.vertex_data["f"].tolist() == [0, 1, 2, 3]
+
+
+@pytest.mark.parametrize("suffix", [".vtk", ".vtu"])
+@pytest.mark.parametrize("kind", ["?", "u1", "i2", "i8", "u8", "f2", "f4", "f8", "g", ">f4"])
+def test_functions_of_every_type_come_back(tmp_path, suffix, kind):
+    pytest.importorskip("meshio")
+    f = np.array([0, 1, 0, 1.0]).astype(kind)
+    write_mesh(tmp_path / f"a{suffix}", Mesh(POINTS, FACES, {"f": f, "F": np.stack([f, f, f], 1)}))
+    data = read_mesh(tmp_path / f"a{suffix}").vertex_data
+    assert np.array_equal(data["f"], f)
+    assert np.array_equal(data["F"], np.stack([f, f, f], 1))
+
+
+def there_and_back(place, name, values):
+    try:
+        write_mesh(place, Mesh(POINTS, FACES, {name: values}))
+    except MeshError:
+        return None
+    return read_mesh(place).vertex_data[name].reshape(values.shape)
+
+
+@pytest.mark.parametrize("suffix", [".vtk", ".vtu"])
+def test_what_vtk_would_not_give_back_is_refused(tmp_path, capfd, suffix):
+    pytest.importorskip("meshio")
+    place = tmp_path / f"a{suffix}"
+    for name in ("plain", "a/b", "é", "my f", 'x"y', "a<b", "a&b", "a>b", "a\tb", "", "a\nb"):
+        back = there_and_back(place, name, np.arange(4.0))
+        assert (back is None and name not in ("plain", "a/b", "é")) or back.tolist() == [0, 1, 2, 3]
+    for columns in range(5):
+        values = np.arange(4.0 * columns).reshape(4, columns)
+        back = there_and_back(place, "F", values)
+        if columns == 0 or (columns == 2 and suffix == ".vtk"):
+            assert back is None
+        else:
+            assert np.array_equal(back, values)
+    assert capfd.readouterr() == ("", "")
 
 
 def test_compressed_gifti(tmp_path):

@@ -40,8 +40,10 @@ def test_pairs(pair):
         SimpleNamespace(vertices=Vector(X), triangles=Vector(F)),
         SimpleNamespace(points=X, regular_faces=F, faces=np.zeros(80)),
         SimpleNamespace(points=X, cells_dict={"line": np.zeros((1, 2), int), "triangle": F}),
+        SimpleNamespace(coordinates=X, faces=F),
+        SimpleNamespace(pos=Vector(X), face=Vector(F.T)),
     ],
-    ids=["trimesh", "open3d", "pyvista", "meshio"],
+    ids=["trimesh", "open3d", "pyvista", "meshio", "nilearn", "torch_geometric"],
 )
 def test_objects_of_other_libraries(source):
     mesh = as_mesh(source)
@@ -82,3 +84,21 @@ def test_quads_beside_triangles_are_not_lost_in_silence():
 def test_pyvista_polygons_that_are_not_triangles():
     with pytest.raises(MeshError):
         as_mesh(SimpleNamespace(points=np.zeros((4, 3)), regular_faces=np.array([[0, 1, 2, 3]])))
+
+
+def test_images_of_nibabel_are_surfaces_or_refused():
+    gifti = pytest.importorskip("nibabel").gifti
+    points = gifti.GiftiDataArray(X.astype(np.float32), intent="NIFTI_INTENT_POINTSET")
+    triangles = gifti.GiftiDataArray(F.astype(np.int32), intent="NIFTI_INTENT_TRIANGLE")
+    shape = gifti.GiftiDataArray(np.ones(len(X), np.float32), intent="NIFTI_INTENT_SHAPE")
+    mesh = as_mesh(gifti.GiftiImage(darrays=[shape, points, triangles]))
+    assert np.array_equal(mesh.vertices, X.astype(np.float32))
+    assert np.array_equal(mesh.faces, F)
+    for arrays in ([shape], [points], [points, triangles, points]):
+        with pytest.raises(MeshError, match="GIFTI"):
+            as_mesh(gifti.GiftiImage(darrays=arrays))
+
+
+def test_points_of_torch_geometric_without_faces_are_no_mesh():
+    with pytest.raises(MeshError, match="cannot make a mesh"):
+        as_mesh(SimpleNamespace(pos=X, face=None))

@@ -1,7 +1,10 @@
+import math
+
 import numpy as np
 import pytest
 
-from beltrami.errors import DimensionError, NonFiniteError, UnknownNameError
+from beltrami.errors import DimensionError, MeshError, NonFiniteError, UnknownNameError
+from beltrami.mesh.shapes import grid
 from beltrami.operators.areas import AREA_KINDS, vertex_areas
 from beltrami.operators.edge_areas import EDGE_AREA_KINDS, edge_areas
 from beltrami.operators.integrals import integrate
@@ -93,3 +96,13 @@ def test_errors():
         assert bad.value.vertices.tolist() == [1]
         with pytest.raises(NonFiniteError):
             integrate(mesh, lambda x: np.full(len(x), np.inf), how)
+
+
+@pytest.mark.parametrize(
+    "f", [lambda x, y: x, lambda x: math.exp(x[:, 0]), lambda x: 1.0 if x[0] > 0 else 0.0]
+)
+def test_a_function_of_single_positions_is_told_what_it_gets(f):
+    mesh = grid(3, 3)
+    for how in ("vertex", "edge"):
+        with pytest.raises(MeshError, match=r"called with positions.*one array"):
+            integrate(mesh, f, how)

@@ -1,5 +1,6 @@
 """Kernels: their formulas, what they refuse, and how they combine."""
 
+import math
 import pickle
 
 import numpy as np
@@ -146,6 +147,9 @@ def test_functions_of_users_are_checked():
         evaluate(lambda x: np.where(x == 1, np.nan, x), X)
     with pytest.raises(BeltramiError, match="function of the eigenvalues"):
         evaluate(3.0, X)
+    for h in (lambda x: 1 if x < 1 else 0, lambda x: math.exp(-x), lambda x, y: x):
+        with pytest.raises(BeltramiError, match=r"with an array of eigenvalues.*numpy.where"):
+            evaluate(h, X)
 
 
 def test_a_kernel_without_a_formula_has_no_values():

@@ -201,3 +201,28 @@ def test_maps_that_take_no_arrays_are_told_to_use_numpy():
         assert isinstance(caught.value.__cause__, TypeError)
     with pytest.raises(SurfaceError, match="the curve cannot be called"):
         ParametricSurface(plane, SQUARE).trace(lambda t: (math.sin(t), t), [0.1, 0.2])
+
+
+def test_conditions_on_arrays_are_told_to_use_numpy():
+    for phi in (
+        lambda u, v: (u, v, u if u > 0 else 0 * u),
+        lambda u, v: np.eye(3, 2) @ np.array([u, v]),
+    ):
+        with pytest.raises(
+            SurfaceError, match=r"φ cannot be called with 2 arrays.*numpy"
+        ) as caught:
+            ParametricSurface(phi, SQUARE)
+        assert isinstance(caught.value.__cause__, ValueError)
+
+
+def test_a_function_of_parameters_where_one_of_space_is_needed():
+    surface = ParametricSurface(plane, SQUARE)
+    coordinates = surface(0.5, 0.5).shape[-1]
+    told = rf"the {coordinates} coordinates of points.*of=\"parameters\""
+    for ask in (
+        lambda: surface.laplace_beltrami(lambda u, v, *, w: u)(0.5, 0.5),
+        lambda: surface.pullback(lambda u: u)(0.5, 0.5),
+        lambda: ball_average_laplacian(surface, lambda: 1.0, 0.5, 0.5, 0.1),
+    ):
+        with pytest.raises(SurfaceError, match=told):
+            ask()

@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from beltrami._arrays import Floats
 from beltrami._optional import require
-from beltrami.errors import FileFormatError, MissingExtraError
+from beltrami.errors import FileFormatError, MeshError, MissingExtraError
 from beltrami.io.faces import fan, first_outside
 from beltrami.io.gltf import read_scene
 from beltrami.io.packed_inside import require_room
@@ -139,12 +140,39 @@ def _encode_freesurfer(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
 
 def _encode_meshio(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
     meshio = require("meshio", "io", f"writing {suffix}")
-    data = {name: array for name, array in mesh.vertex_data.items() if array.dtype.kind in "iuf"}
+    data = {name: _common(array) for name, array in mesh.vertex_data.items()}
+    for name, array in data.items():
+        _require_holdable(name, array.shape[1:], suffix)
     found = meshio.Mesh(np.array(vertices), [("triangle", np.array(mesh.faces))], point_data=data)
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder, "mesh" + suffix)
         found.write(place)
         return place.read_bytes()
+
+
+def _require_holdable(name: str, columns: tuple[int, ...], suffix: str) -> None:
+    """Refuse what meshio would write so that it does not come back."""
+    unfit = "\t\r\n" + (" " if suffix == ".vtk" else '<&"')
+    if not name or any(sign in name for sign in unfit):
+        raise MeshError(
+            f"{name!r} cannot be the name of vertex data in a {suffix} file",
+            remedy="Give it a name of letters with mesh.with_data.",
+        )
+    if columns == (0,) or (columns == (2,) and suffix == ".vtk"):
+        raise MeshError(
+            f"a {suffix} file has no functions of {columns[0]} columns, as {name!r} is",
+            remedy="Write .ply, or other columns.",
+        )
+
+
+def _common(array: NDArray[Any]) -> NDArray[Any]:
+    """Return the array in a type that VTK has: truth values as bytes, as in PLY."""
+    kind = array.dtype
+    if kind.kind == "b":
+        return array.astype(np.uint8)
+    if kind.kind == "f" and kind.itemsize not in (4, 8):
+        return array.astype(np.float32 if kind.itemsize < 4 else np.float64)
+    return array
 
 
 READERS: dict[str, Callable[[Path, Room], Any]] = {

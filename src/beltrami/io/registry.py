@@ -146,7 +146,8 @@ def write_mesh(
     UnknownNameError
         If the suffix is not known, or cannot hold ``uv`` or ``texture``.
     MeshError, FileFormatError
-        If there is a texture but no coordinates, or it is no picture.
+        If there is a texture but no coordinates, or it is no picture; or if the name of vertex
+        data, or the number of their columns, is none that VTK's formats have.
     DimensionError
         If the vertices have more than three coordinates, or ``uv`` another shape.
     EmptyMeshError

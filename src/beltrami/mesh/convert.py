@@ -21,8 +21,10 @@ def as_mesh(source: Any) -> Mesh:
 
     Accepted are a Mesh itself, pairs, and whatever has ``vertices`` and ``faces`` (trimesh),
     ``points`` and ``regular_faces`` (pyvista), ``points`` and ``cells_dict`` (meshio, grids of
-    pyvista), ``vertices`` and ``triangles`` (open3d, both of its kinds) or ``v`` and ``t`` (LaPy);
-    and a surface mesh of polyscope, which has single precision and gives no data back. The order
+    pyvista), ``vertices`` and ``triangles`` (open3d, both of its kinds), ``v`` and ``t`` (LaPy),
+    ``coordinates`` and ``faces`` (nilearn) or ``pos`` and ``face`` of the shape (3, m) (PyTorch
+    Geometric); a surface of nibabel's GIFTI; and a surface mesh of polyscope, which has single
+    precision and gives no data back. The order
     of vertices and faces is kept; quads among ``cells_dict`` are cut in two and come last, points
     and lines are no faces.
 
@@ -53,6 +55,12 @@ def as_mesh(source: Any) -> Mesh:
         return _of_open3d(source)
     if _has(source, "v", "t"):
         return Mesh(source.v, source.t)
+    if _has(source, "coordinates", "faces"):
+        return Mesh(source.coordinates, source.faces)
+    if getattr(source, "pos", None) is not None and getattr(source, "face", None) is not None:
+        return Mesh(source.pos, np.asarray(source.face).T)
+    if _has(source, "darrays", "agg_data"):
+        return _of_gifti(source)
     if _has(source, "points", "cells_dict"):
         return _mesh(source.points, _triangles(source.cells_dict), _data_of(source))
     if _has(source, "points", "faces"):
@@ -117,6 +125,13 @@ def _of_tensors(source: Any) -> Mesh:
     data = {_OURS.get(name, name): values for name, values in vertex.items()}
     faces = triangle.get("indices", np.zeros((0, 3), np.int64))
     return _mesh(x, faces, data, triangle.get("texture_uvs"))
+
+
+def _of_gifti(source: Any) -> Mesh:
+    parts = [source.agg_data(kind) for kind in ("pointset", "triangle")]
+    if not all(isinstance(part, np.ndarray) for part in parts):  # a tuple of none, or of several
+        raise MeshError("a surface of GIFTI has one array of points and one of triangles")
+    return Mesh(*parts)
 
 
 def _of_polyscope(source: Any) -> Mesh:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_function
-from beltrami.errors import check_name
+from beltrami.errors import BeltramiError, MeshError, check_name
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.areas import vertex_areas
 from beltrami.operators.edge_areas import edge_areas
@@ -50,6 +50,8 @@ def integrate(
         If there is no such way or kind of areas.
     DimensionError, NonFiniteError
         If f has the wrong shape, or values that are not finite.
+    MeshError
+        If f is a function that cannot be called with the positions.
     EmptyMeshError, NonFiniteError, DegenerateFaceError
         If the mesh is not sound.
 
@@ -81,4 +83,13 @@ def integrate(
 
 def _at(positions: Floats, f: OfPositions) -> Floats:
     """Evaluate a function of positions, and check what it returns."""
-    return as_function(f(positions), len(positions), "what the function returned")
+    try:
+        values = f(positions)
+    except BeltramiError:
+        raise
+    except (TypeError, ValueError) as cause:
+        raise MeshError(
+            f"f cannot be called with positions of the shape {positions.shape}: {cause}",
+            remedy="It gets all of them as one array: x[:, 0] is the first coordinate.",
+        ) from cause
+    return as_function(values, len(positions), "what the function returned")

@@ -120,7 +120,7 @@ def evaluate(h: Response, eigenvalues: Floats) -> Floats:
     Raises
     ------
     BeltramiError
-        If h is not a function.
+        If h is not a function, or one of single numbers only.
     DimensionError
         If it does not return a real number for each eigenvalue.
     NonFiniteError
@@ -133,7 +133,15 @@ def evaluate(h: Response, eigenvalues: Floats) -> Floats:
     """
     if not callable(h):
         raise BeltramiError(f"h is a function of the eigenvalues, not of type {type(h).__name__}")
-    given: Any = h(eigenvalues)
+    try:
+        given: Any = h(eigenvalues)
+    except BeltramiError:
+        raise
+    except (TypeError, ValueError) as cause:
+        raise BeltramiError(
+            f"h cannot be called with an array of eigenvalues: {cause}. Write it with numpy's "
+            "functions, and conditions with numpy.where"
+        ) from cause
     found: NDArray[Any] = given if isinstance(given, np.ndarray) else rectangular(given)
     if found.dtype.kind not in "biuf" or found.shape not in ((), eigenvalues.shape):
         raise DimensionError(

@@ -14,7 +14,7 @@ from beltrami.errors import DimensionError, SurfaceError
 from beltrami.mesh.mesh import Mesh
 from beltrami.surfaces import checks, curves, forms
 from beltrami.surfaces.domain import Disk, Rectangle, as_domain
-from beltrami.surfaces.immersion import Immersion, Map
+from beltrami.surfaces.immersion import Immersion, Map, call_at_points
 from beltrami.surfaces.jets import Jet
 from beltrami.surfaces.meshing import mesh_chart
 
@@ -135,8 +135,8 @@ class Chart(Frozen):
 
         def fbar(u: Any, v: Any) -> Any:
             if isinstance(u, Jet) or isinstance(v, Jet):
-                return f(*self.immersion.coordinates(u, v))
-            return f(*np.moveaxis(self(u, v), -1, 0))
+                return call_at_points(f, self.immersion.coordinates(u, v))
+            return call_at_points(f, np.moveaxis(self(u, v), -1, 0))
 
         return fbar
 

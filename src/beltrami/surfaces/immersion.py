@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from beltrami._arrays import Floats
-from beltrami.errors import SurfaceError
+from beltrami.errors import BeltramiError, SurfaceError
 from beltrami.surfaces.jets import Jet, compose, parts, plain, variables
 from beltrami.surfaces.outputs import entries
 
@@ -77,12 +77,27 @@ def call(function: Map, what: str, depth: int, *at: Any) -> Any:
     try:
         with np.errstate(all="ignore"):  # what is not finite is told by who asked
             result = function(*at)
-    except TypeError as cause:
+    except BeltramiError:
+        raise
+    except (TypeError, ValueError) as cause:  # ValueError: an array as a condition
         raise SurfaceError(
             f"{what} cannot be called with {len(at)} arrays: {cause}",
             remedy="Write it with numpy's functions, of as many parameters.",
         ) from cause
     return entries(result, depth, np.shape(plain(at[0])), what)
+
+
+def call_at_points(f: Map, points: Any) -> Any:
+    """Call a user's function of space at its k coordinates."""
+    try:
+        return f(*points)
+    except BeltramiError:
+        raise
+    except (TypeError, ValueError) as cause:
+        raise SurfaceError(
+            f"f cannot be called with the {len(points)} coordinates of points: {cause}",
+            remedy='Write it with numpy\'s functions; if it is one of (u, v), say of="parameters".',
+        ) from cause
 
 
 def derivatives_of(function: Map, what: str, depth: int, u: Floats, v: Floats) -> Derivatives:
