@@ -86,12 +86,12 @@ def methods(mesh: Any) -> Iterator[tuple[str, Callable[[], Outcome]]]:
         kept[method] = bt.parameterize(mesh, method, cut=False, strict=strict).uv
         return kept[method]
 
-    def from_mean_values() -> Array:
-        return np.asarray(bt.parameterize(mesh, "auto", "mean_value", cut=False).uv)
+    def from_clamped() -> Array:
+        return np.asarray(bt.parameterize(mesh, "auto", "clamped", cut=False).uv)
 
     for method in OURS:
         yield f"beltrami {method}", lambda method=method: judged(mesh, lambda: ours(method))
-    yield "beltrami auto, mean values", lambda: judged(mesh, from_mean_values)
+    yield "beltrami auto, clamped", lambda: judged(mesh, from_clamped)
     V, F = np.array(mesh.vertices), np.array(mesh.faces, dtype=np.int64)
     loop = np.array(mesh.boundary_loops[0])
     for name, call in _libigl(mesh, V, F, loop, kept):

@@ -12,7 +12,11 @@ from beltrami.parameterization import relaxation, stepping
 from beltrami.parameterization.block_pattern import block_pattern
 from beltrami.parameterization.certificate import certify
 from beltrami.parameterization.distortion import distortion
-from beltrami.parameterization.isometric_energy import first_collapse, isometric_energy
+from beltrami.parameterization.isometric_energy import (
+    first_collapse,
+    isometric_energy,
+    shrinking,
+)
 from beltrami.parameterization.parameterize import parameterize
 from beltrami.parameterization.predicates import orientation
 from beltrami.parameterization.relaxation import relax
@@ -57,6 +61,19 @@ def test_the_gradient_is_that_of_differences(t):
         h = 1e-7
         ahead, behind = (total(mesh, x + step * d, t) for step in (h, -h))
         assert gradient @ d.ravel() == pytest.approx((ahead - behind) / (2 * h), rel=1e-5)
+
+
+def test_the_gradient_alone_is_the_same():
+    mesh = open_()
+    free = ~mesh.topology.on_boundary
+    pattern = block_pattern(mesh, free)
+    energy = isometric_energy(mesh)
+    for x in (shaken(mesh, 1e-2), mesh.vertices[:, :2] * [3.0, 0.2]):
+        whole, _ = energy.derivatives(x, 0.8, pattern)
+        size = np.abs(energy.derivatives(x, 0.8, block_pattern(mesh, free | True))[0]).max()
+        np.testing.assert_allclose(
+            energy.gradient(x, 0.8, pattern), whole, rtol=1e-10, atol=1e-13 * size
+        )
 
 
 def test_the_hessian_is_that_of_differences_where_nothing_is_projected():
@@ -115,6 +132,35 @@ def test_the_first_collapse():
     still = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     assert first_collapse(one, still, 0 * still) == np.inf
     assert first_collapse(one, still, -still) == pytest.approx(1)
+
+
+def test_which_faces_a_step_leaves_little_of():
+    mesh = open_()
+    rng = np.random.default_rng(3)
+    x, d = mesh.vertices[:, :2], 0.1 * rng.normal(size=(mesh.n_vertices, 2))
+
+    def areas(y):
+        u, v = (y[mesh.faces[:, k]] - y[mesh.faces[:, 0]] for k in (1, 2))
+        return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+
+    for share in (0.2, 0.9):
+        expected = areas(x + d) < share * areas(x)
+        assert 0 < expected.sum() < mesh.n_faces
+        np.testing.assert_array_equal(shrinking(mesh, x, d, share), expected)
+
+
+def test_steps_by_a_factor_that_is_kept_lower_the_energy_more(monkeypatch):
+    mesh = Mesh(icosphere(3).vertices, icosphere(3).faces[1:])
+    held = mesh.topology.on_boundary
+    start = parameterize(mesh, "tutte", cut=False).uv
+
+    def energy(kept, steps):
+        monkeypatch.setattr(relaxation, "_KEPT", kept)
+        x, done = relax(mesh, start, steps, held, 1e-9)
+        assert done == steps
+        return distortion(mesh, x).symmetric_dirichlet
+
+    assert energy(3, 6) < energy(1, 6)
 
 
 def test_a_fixed_boundary_stays_and_the_inside_is_stationary():

@@ -8,7 +8,7 @@ from beltrami.mesh.shapes import grid
 from beltrami.parameterization.certificate import certify
 from beltrami.parameterization.distortion import distortion
 from beltrami.parameterization.isometric_energy import isometric_energy
-from beltrami.parameterization.stars import at_rest, corner_lists, star_energy, stars
+from beltrami.parameterization.stars import at_rest, corner_lists, star_energy, star_sum, stars
 from meshes_of_the_errata import open_
 
 
@@ -146,3 +146,23 @@ def test_the_star_energy_is_the_part_of_the_whole_that_changes():
     here, there = (star_energy(sides, rest, len(sides), *z[v])[0] for z in (x, y))
     grown, shrunk = (isometric_energy(mesh).sums(z) for z in (x, y))
     assert (there - here) / mesh.area == pytest.approx(sum(shrunk) - sum(grown), rel=1e-9)
+
+
+def test_only_those_chosen_move():
+    mesh, x = bent()
+    chosen = np.zeros(mesh.n_vertices, bool)
+    chosen[np.flatnonzero(~mesh.topology.on_boundary)[:5]] = True
+    chosen[mesh.boundary_loops[0][:2]] = True  # these may not
+    moved = (stars(mesh).swept(x, 1.0, 2, chosen) != x).any(axis=1)
+    assert moved.sum() == 5
+    assert (chosen | ~moved).all()
+
+
+def test_the_sum_alone_is_the_same():
+    mesh, x = bent()
+    v = int(np.flatnonzero(~mesh.topology.on_boundary)[3])
+    sides, rest = star(mesh, x, v)
+    here = star_energy(sides, rest, len(sides), *x[v])[0]
+    assert star_sum(sides, rest, len(sides), *x[v]) == pytest.approx(here, rel=1e-14)
+    assert star_sum(sides, rest, len(sides), 9.0, 9.0) == np.inf
+    assert star_sum(sides, 0 * rest, len(sides), *x[v]) == np.inf

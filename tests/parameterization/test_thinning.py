@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
+from beltrami.mesh.cut import shortest_paths
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import blob, disk, grid, icosphere
 from beltrami.mesh.tree_cotree import cut_to_disk
@@ -93,6 +94,20 @@ def test_what_is_around_a_short_boundary_stays():
     coarse = thinned(mesh, mesh.n_vertices // 4)
     near = set(mesh.faces[np.isin(mesh.faces, mesh.boundary_loops[0]).any(axis=1)].ravel().tolist())
     assert near <= set(coarse.kept.tolist())
+
+
+def test_around_a_short_boundary_edges_are_short():
+    """No edge that is made is longer than a quarter of the way to the boundary."""
+    mesh = less_one(icosphere(5))
+    coarse = thinned(mesh, mesh.n_vertices // 16)
+    distance, _ = shortest_paths(mesh, mesh.boundary_loops[0])
+    ends = coarse.kept[coarse.mesh.edges]
+    before = set(map(tuple, mesh.edges.tolist()))
+    made = np.array([tuple(edge) not in before for edge in ends.tolist()])
+    lengths = coarse.mesh.edge_lengths[made]
+    far = distance[ends[made]].max(axis=1)
+    assert (lengths < 0.5 * far).all()  # who went lay up to an edge farther away
+    assert lengths[far < 1].mean() < 0.7 * lengths[far > 2].mean()
 
 
 def test_the_tip_of_a_spike_stays():

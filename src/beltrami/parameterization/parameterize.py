@@ -69,10 +69,10 @@ def parameterize(
     weights
         ``"combinatorial"``, ``"distance"``, ``"mean_value"``, ``"clamped"`` or a callable: all
         positive. ``"cotangent"`` is negative where two angles add to more than π, and may fold
-        (E90). By default ``"mean_value"`` for the method ``"tutte"``; else ``"clamped"``, and
-        where that folds or ends at an energy above 50 the best of it, ``"mean_value"`` and
-        ``"combinatorial"``. Started from mean values, disks get maps that are as good, but long
-        tubes worse ones: ``benchmarks.mapping_suite`` has a row for it.
+        (E90). By default ``"mean_value"`` for the method ``"tutte"``, and at first for
+        ``"auto"``: where its start is bad, or what is made of it has an energy above 5, the best
+        of what is made from ``"mean_value"``, ``"combinatorial"`` and ``"clamped"``. For
+        ``"free"`` it is ``"clamped"``, and the others where that ends above 50.
     boundary
         ``"circle"``, ``"square"``, a number of sides or the corners of a convex polygon: see
         ``place_boundary``.
@@ -124,8 +124,8 @@ def parameterize(
     -----
     Tutte's maps take one sparse factorisation for both coordinates. Symmetric weights go to
     Cholesky, several times faster than LU, which those of the mean value need. Conformal maps,
-    and each step of relaxation, take one of twice as many unknowns; ``"auto"`` takes about ten of
-    them on large meshes, and more on coarser ones.
+    and each Newton's step of relaxation, take one of twice as many unknowns; ``"auto"`` takes
+    about five of them on large meshes, and more on coarser ones.
 
     Examples
     --------

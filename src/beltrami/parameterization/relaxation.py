@@ -35,6 +35,7 @@ _LEFT = 0.3  # they are around faces that a whole step would leave less than thi
 _KEPT = 3  # steps by one factor, if the boundary is held
 _FACTOR = 4.0  # what a factorisation costs, in steps without one
 _SLOWER = 0.5  # of the mean decrease for this cost: a step below it is the last by a factor
+_IDLE = 3  # short steps of a boundary that moves, after which it may get free, are forgiven
 _SHIFT = 1e-9  # of the Hessian, over its mean diagonal: moving and turning cost nothing
 
 
@@ -84,7 +85,7 @@ def relax(
     """
     energy = isometric_energy(mesh)
     free = np.ones(mesh.n_vertices, np.bool_) if held is None else ~held
-    x, done = uv, 0
+    x, done, idle = uv, 0, 0
     sums = energy.sums(x)
     if free.any() and all(map(math.isfinite, sums)):
         loose = bool(free[mesh.topology.on_boundary].any())
@@ -97,9 +98,11 @@ def relax(
             if found is None:
                 break
             done += 1
-            x, before, after, cost = found
+            x, before, after, cost, step = found
             sums = energy.sums(x)
-            if before - after < settled * before * cost / (_FACTOR + 1):
+            little = before - after < settled * before * cost / (_FACTOR + 1)
+            idle = idle + 1 if little else 0
+            if idle > (_IDLE if loose and step < _SHORT else 0):
                 break
     return (x if held is not None else x * best_scale(sums)), done
 
@@ -158,13 +161,13 @@ def _solver(H: csc_array, positions: Floats, plan: Elimination) -> Callable[[Flo
 
 def _descended(
     model: _Model, x: Floats, count: int, around: Stars
-) -> tuple[Floats, float, float, float] | None:
-    """Make up to so many steps; return positions, energies before and after, and the cost."""
+) -> tuple[Floats, float, float, float, float] | None:
+    """Make up to so many steps; return positions, energies before and after, cost, last step."""
     free = model.pattern.number >= 0
     gradient, moved = model.gradient, np.zeros(0)
     secants: list[Secant] = []
     start = after = math.inf
-    cost = _FACTOR
+    cost, step = _FACTOR, 0.0
     for made in range(count):
         if made:
             ahead = model.energy.gradient(x, model.scale, model.pattern).ravel()
@@ -183,7 +186,7 @@ def _descended(
         start, cost = (start if made else before), cost + 1
         if before - after < _SLOWER * (start - after) / cost:
             break
-    return None if math.isinf(start) else (x, start, after, cost)
+    return None if math.isinf(start) else (x, start, after, cost, step)
 
 
 def _evened(

@@ -197,9 +197,9 @@ def star_energy(sides: Any, rest: Any, k: int, px: float, py: float) -> Any:
         rx, ry = lower * (wx - along * ux), lower * (wy - along * uy)
         Q = ux * ux + uy * uy + rx * rx + ry * ry
         qx, qy, dx, dy = 2 * lower * rx, 2 * lower * ry, -lower * uy, lower * ux
-        mixed = 1 / D  # divisions are what takes time here
-        inverse = mixed * mixed
-        mixed *= 2 * inverse
+        reciprocal = 1 / D
+        inverse = reciprocal * reciprocal
+        mixed = 2 * inverse * reciprocal
         first, second = Q * mixed, 6 * Q * inverse * inverse
         bend = 2 * (1 + inverse) * lower * lower
         total += area * Q * (1 + inverse)
