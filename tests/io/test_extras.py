@@ -18,8 +18,7 @@ POINTS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0.5]]
 
 @pytest.mark.parametrize("suffix", extras.WRITERS)
 def test_round_trip(tmp_path, suffix):
-    packages = {".glb": "trimesh", ".vtk": "meshio", ".vtu": "meshio"}
-    pytest.importorskip(packages.get(suffix, "nibabel"))
+    pytest.importorskip({".vtk": "meshio", ".vtu": "meshio"}.get(suffix, "nibabel"))
     write_mesh(tmp_path / f"a{suffix}", Mesh(POINTS, FACES, {"f": np.arange(4.0)}))
     again = read_mesh(tmp_path / f"a{suffix}")
     assert np.array_equal(again.vertices, POINTS)

@@ -10,16 +10,31 @@ if TYPE_CHECKING:
     from beltrami.mesh.mesh import Mesh
 
 
-def read_data(path: Path, mesh: Mesh, name: str | None = None, missing: bool = False) -> Floats:
+def read_data(path: Path, mesh: Mesh, name: str | None = None) -> Floats:
     """Read a function from a file, by its name if the file has several; check it."""
-    import numpy as np
-
     from beltrami._arrays import as_function
     from beltrami.io.function import read_function
 
-    f = read_function(path, name, missing=missing)
-    as_function(np.where(np.isnan(f), 0, f), mesh.n_vertices, f"the function of {path}")
-    return f
+    return as_function(read_function(path, name), mesh.n_vertices, f"the function of {path}")
+
+
+def read_drawn(path: Path, mesh: Mesh, name: str | None = None, missing: bool = False) -> Floats:
+    """Read numbers or colours to be drawn, (n,) or (n, 3), as ``render`` asks for them.
+
+    Colours may be bytes, as in most files; of four columns the last one, opacity, is left out.
+    """
+    import numpy as np
+
+    from beltrami._arrays import as_function
+    from beltrami.display.values import as_values
+    from beltrami.io.function import read_values
+
+    held = read_values(path, name, missing=missing)
+    shown = held[:, :3] if held.ndim == 2 and held.shape[1] == 4 else held
+    kept = np.uint8 if held.dtype == np.uint8 else np.float64
+    as_function(np.where(np.isnan(held), 0, held), mesh.n_vertices, f"the function of {path}")
+    values = as_values(mesh, shown.astype(kept), missing)
+    return values[:, 0] if values.shape[1] == 1 else values
 
 
 def write_values(path: Path, mesh: Mesh, name: str, values: Floats) -> None:

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from beltrami.cli.console import waiting
-from beltrami.cli.functions import read_data
+from beltrami.cli.functions import read_drawn
 from beltrami.cli.options import Data, DataName
 from beltrami.cli.outputs import check_picture_output
 
@@ -61,7 +61,7 @@ def render(
     with waiting("reading"):
         read = [read_mesh(path) for path in meshes]
         holes = missing is not None
-        functions = [None if data is None else read_data(data, read[0], data_name, holes)]
+        functions = [None if data is None else read_drawn(data, read[0], data_name, holes)]
     several = len(read) > 1
     with waiting("drawing"):
         picture = draw(

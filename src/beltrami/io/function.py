@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from beltrami._arrays import Floats
 from beltrami._kinds import checked
@@ -75,6 +76,19 @@ def read_function(
     ...     read_function(place).tolist()
     [0.5, 1.5]
     """
+    values = read_values(path, name, format=format, missing=missing, max_bytes=max_bytes)
+    return np.ascontiguousarray(values, dtype=np.float64)
+
+
+def read_values(
+    path: str | os.PathLike[str],
+    name: str | None = None,
+    *,
+    format: str | None = None,  # noqa: A002 - as above
+    missing: bool = False,
+    max_bytes: int | None = None,
+) -> NDArray[Any]:
+    """Read a function as ``read_function`` does, in the type that it has in the file."""
     suffix = suffix_of(path, format, (*TEXT, *READERS, *_OTHERS))
     place = Path(path)
     if suffix in TEXT:
@@ -103,19 +117,18 @@ def _foreign(place: Path, suffix: str, max_bytes: int | None) -> Any:
             raise FileFormatError(place, f"expected a {suffix} file ({reason})") from cause
 
 
-def _checked(place: Path, values: Any, missing: bool) -> Floats:
+def _checked(place: Path, values: Any, missing: bool) -> NDArray[Any]:
     if not isinstance(values, np.ndarray) or values.dtype.kind not in "biuf":
         raise FileFormatError(place, "expected an array of real numbers")
     if values.ndim not in (1, 2) or values.size == 0:
         raise FileFormatError(place, f"expected the shape (n,) or (n, c), found {values.shape}")
-    result = np.ascontiguousarray(values, dtype=np.float64)
-    wrong = np.isinf(result) if missing else ~np.isfinite(result)
+    wrong = np.isinf(values) if missing else ~np.isfinite(values)
     if wrong.any():
         row = int(np.argwhere(wrong)[0, 0])
-        hint = "" if np.isinf(result).any() else ". With missing=True NaN is read"
+        hint = "" if np.isinf(values).any() else ". With missing=True NaN is read"
         problem = f"expected finite values, found NaN or infinity in row {row}{hint}"
         raise FileFormatError(place, problem)
-    return result
+    return values
 
 
 def _read_npy(place: Path, _room: Room) -> Any:

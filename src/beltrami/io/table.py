@@ -6,7 +6,7 @@ import numpy as np
 
 from beltrami._arrays import Floats
 from beltrami.errors import FileFormatError, check_name
-from beltrami.io.source import Source
+from beltrami.io.source import Source, mark_length
 
 _SEPARATORS = bytes.maketrans(b",;", b"  ")
 
@@ -33,7 +33,8 @@ def read_table(source: Source, name: str | None = None, missing: bool = False) -
     """
     rows: list[list[float]] = []
     names: list[str] = []
-    for number, line in enumerate(source.data.tobytes().split(b"\n"), 1):
+    text = source.data[mark_length(source.data) :].tobytes()
+    for number, line in enumerate(text.split(b"\n"), 1):
         words = line.split(b"#")[0].translate(_SEPARATORS).split()
         if not words:
             continue
