@@ -25,7 +25,7 @@ _LARGE = 5000  # vertices from which a coarser mesh comes first
 _COARSER = 4  # times fewer vertices
 _HARDLY = 1.5  # likewise: if no more can go, it does not pay
 _ROUGH = 1000, 8  # likewise, of a rough map
-_SWEEPS = 10  # over a map that is made of a coarser one
+_SWEEPS, _FEW_SWEEPS = 10, 3  # over a map that is made of a coarser one; a rough one
 _LOOSER = 0.15  # power of the size, over the least large one, by which a large mesh settles sooner
 
 
@@ -130,7 +130,7 @@ def _from_coarser(
         return None
     scale = best_scale(isometric_energy(coarse.mesh).sums(found.uv))
     uv = inserted(mesh, coarse, found.uv, scale)
-    uv = stars(mesh).swept(uv, scale, _SWEEPS)
+    uv = stars(mesh).swept(uv, scale, _FEW_SWEEPS if rough else _SWEEPS)
     step = assess(mesh, uv)
     if rough or step.flips:
         return None if step.flips else step
