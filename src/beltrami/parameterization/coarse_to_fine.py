@@ -23,6 +23,7 @@ _RELAXATIONS = 200  # steps of it, at most
 _LARGE = 5000  # vertices from which a coarser mesh comes first
 _COARSER = 4  # times fewer vertices
 _HARDLY = 1.5  # likewise: if no more can go, it does not pay
+_ROUGH = 1000, 8  # likewise, of a rough map
 _SWEEPS = 10  # over a map that is made of a coarser one
 
 
@@ -34,6 +35,7 @@ def disk_map(
     *,
     free: bool,
     settled: float,
+    rough: bool = False,
 ) -> Step:
     """Map a disk by reweighting and relaxation; the next weights only where the map is bad.
 
@@ -41,11 +43,15 @@ def disk_map(
     the same way; the vertices that it lacks are inserted without a fold, and the map is relaxed.
     Iterations are cheap there, where the way is long. Weights that are no name of weights may not
     be for another mesh: there, and where an insertion folds, the mesh is mapped as it is. So it is
-    with a free boundary, which comes to rest elsewhere if it is that of a coarser mesh first.
+    with a free boundary, which comes to rest elsewhere if it is that of a coarser mesh first;
+    unless the map need only be rough: then it is that of a mesh with an eighth of the vertices,
+    for disks of 1,000 and more, with the others inserted and not relaxed.
     """
     named = all(isinstance(kind, str) for kind in weights)
-    if named and not free and mesh.n_vertices >= _LARGE:
-        step = _from_coarser(mesh, weights, loop, placed, settled)
+    large, coarser = _ROUGH if rough else (_LARGE, _COARSER)
+    if named and (rough or not free) and mesh.n_vertices >= large:
+        count = mesh.n_vertices // coarser
+        step = _from_coarser(mesh, count, weights, loop, placed, free, settled, rough)
         if step is not None:
             return step
     steps: list[Step] = []
@@ -65,18 +71,23 @@ def _relaxed(mesh: Mesh, uv: Floats, free: bool, settled: float) -> Step:
 
 def _from_coarser(
     mesh: Mesh,
+    count: int,
     weights: tuple[str | Weigher, ...],
     loop: Integers,
     placed: Floats,
+    free: bool,
     settled: float,
+    rough: bool,
 ) -> Step | None:
-    """Map a coarser mesh, then this one from there; None if that is not possible."""
-    coarse = thinned(mesh, mesh.n_vertices // _COARSER)
+    """Map a mesh of so many vertices, then this one from there; None if that is not possible."""
+    coarse = thinned(mesh, count)
     if _HARDLY * coarse.mesh.n_vertices > mesh.n_vertices:
         return None
     number = np.searchsorted(coarse.kept, loop)
     try:
-        found = disk_map(coarse.mesh, weights, number, placed, free=False, settled=settled)
+        found = disk_map(
+            coarse.mesh, weights, number, placed, free=free, settled=settled, rough=rough
+        )
     except SingularMatrixError:  # areas of a map beyond the range of doubles
         return None
     if found.flips:
@@ -84,7 +95,8 @@ def _from_coarser(
     scale = best_scale(isometric_energy(coarse.mesh).sums(found.uv))
     uv = inserted(mesh, coarse, found.uv, scale)
     uv = stars(mesh).swept(uv, scale, _SWEEPS)
-    if assess(mesh, uv).flips:
-        return None
+    step = assess(mesh, uv)
+    if rough or step.flips:
+        return None if step.flips else step
     step = _relaxed(mesh, uv, False, settled)
     return None if step.flips else step
