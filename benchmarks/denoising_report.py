@@ -25,8 +25,7 @@ the mean over the seeds ± half the 95 % confidence interval (Student). "Own bes
 best single one of the filters that are mixed, found knowing the truth. CPU is that of `denoise`.
 
 The constants of `denoise` were chosen on the meshes "tuned on"; on those "held out" none was, but
-that noise of other kinds wants linear filters alone on smooth shapes, and that what is fainter than
-0.12 mean edges may be texture (the armadillo's), was seen on both.
+that what is fainter than 0.12 mean edges may be texture (the armadillo's) was seen on both.
 "The best linear filter" is the best of those with equal weights and with weights by length.
 """
 GOALS = {"distance": (0.70, 0.80), "angle": (1.0, 1.1), "own": (1.02, 1.10), "pair": 3.2}

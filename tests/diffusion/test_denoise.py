@@ -202,6 +202,18 @@ class TestCandidates:
             filtered(mesh, Bench.of(mesh), [one])[0], along_normals(mesh, moved), atol=1e-12
         )
 
+    def test_the_weights_are_those_of_the_mesh_that_is_filtered(self):
+        """Else the divergence, which changed copies tell, would lack what the noise does there."""
+        mesh, sigma = noisy(BLOB, 0.3)
+        other = mesh.with_vertices(noisy(mesh, 0.3, seed=1)[0].vertices)
+        moved, afresh = Bench.of(mesh, Linear(0.2)).moved(other), Bench.of(other, Linear(0.2))
+        one = Linear(0.1, True)
+        found, expected = (filtered(other, b, [one])[0] for b in (moved, afresh))
+        assert np.array_equal(found, expected)
+        assert np.array_equal(moved.normals, afresh.normals)
+        kept = filtered(other, Bench.of(mesh, Linear(0.2)), [one])[0]
+        assert np.abs(kept - expected).max() > 0.01 * sigma
+
     def test_those_of_normals_are_the_methods_of_smooth_mesh(self):
         mesh, _ = noisy(CUBE, 0.2)
         bench = Bench.of(mesh)
@@ -268,7 +280,7 @@ def test_where_the_shape_is_smooth_the_level_is_found_better(level):
     assert np.sqrt(np.mean(better**2)) < 0.75 * np.sqrt(np.mean(first**2))
     assert denoise(meshes[0], "linear", noise=1e-3).sigma == 1e-3
     detailed = denoise(noisy(CUBE, level)[0], "linear")
-    assert detailed.sigma == detailed.noise.sigma
+    assert detailed.sigma == pytest.approx(detailed.noise.sigma, rel=0.03)
 
 
 @pytest.mark.chapter("P43")
@@ -345,7 +357,7 @@ class TestNoiseOfOtherKinds:
         mesh = BLOB.with_vertices(BLOB.vertices + noise[:, None] * BLOB.vertex_normals)
         found = denoise(mesh)
         assert any("outliers" in text for text in found.warnings)
-        assert found.sigma == found.noise.spread
+        assert found.sigma == pytest.approx(found.noise.spread, rel=0.03)
         bench = Bench.of(mesh)
         best = min(rms(mesh.with_vertices(x), BLOB) for x in filtered(mesh, bench, LINEAR))
         assert rms(found.mesh, BLOB) < 1.1 * best
@@ -374,6 +386,16 @@ class TestNoiseOfOtherKinds:
         bench = Bench.of(mesh)
         best = min(rms(mesh.with_vertices(x), truth) for x in filtered(mesh, bench, LINEAR[8:16]))
         assert rms(denoise(mesh).mesh, truth) < best
+
+    @pytest.mark.parametrize("level", [0.3, 0.7])
+    def test_the_estimate_is_along_the_normals_of_what_low_passes_leave(self, level):
+        """Along those of the evened mesh it is up to twice as far as the best, and 1.5 times."""
+        truth = shapes.torus(60, 30)
+        for seed in range(3):
+            mesh, _ = noisy(truth, level, seed)
+            bench = Bench.of(mesh)
+            best = min(rms(mesh.with_vertices(x), truth) for x in filtered(mesh, bench, LINEAR))
+            assert rms(denoise(mesh).mesh, truth) < 1.2 * best
 
     def test_a_known_level_is_taken(self):
         mesh, sigma = noisy(BLOB, 0.2)

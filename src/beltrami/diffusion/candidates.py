@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -98,6 +98,12 @@ class Bench:
         rows, rings = equal_rows(mesh), face_rings(mesh.topology)
         evened = mesh.with_vertices(low_passed(rows, mesh.vertices, evening))
         return cls(rows, rows_by_length(evened), rings, evened.vertex_normals, evening)
+
+    def moved(self, mesh: Mesh) -> Bench:
+        """Return that of the same mesh at other positions."""
+        evened = mesh.with_vertices(low_passed(self.rows, mesh.vertices, self.evening))
+        lengths, normals = rows_by_length(evened), evened.vertex_normals
+        return replace(self, rows_by_length=lengths, normals=normals)
 
 
 def along_normals(mesh: Mesh, moved: Floats) -> Floats:

@@ -33,10 +33,10 @@ _SAME = 0.005  # relative change of a level from cut to cut, twice
 _MANY = 10_000  # vertices; of fewer, changes are larger by chance
 _NEAR = 0.15  # relative change of the level by that at most
 _NEAR_IF_COLOURED = 0.4  # where lower frequencies are guessed
-CAUTION = 1.15  # of σ: see the notes of denoise
-CAUTION_IF_STRONG = 1.05  # found with EVENING_IF_STRONG
-_SURE = 2.0  # standard deviations that are no chance
-_SURE_ON_SMOOTH = 4.0  # where there seems to be nothing that low passes cannot do
+CAUTION = 1.08  # of σ: see the notes of denoise
+CAUTION_ON_SMOOTH = 1.15  # where a mixture fits the noise more than the shape
+_SURE = 1.5  # standard deviations that are no chance
+_SURE_OF_MORE = 4.0  # where low passes seem to do all, or all was done once
 _LEAST = 0.005  # weights below this are left out
 LOW_PASSES: tuple[Filter, ...] = (*LINEAR, *IN_PARTS)
 ALL = (*LOW_PASSES, *OF_NORMALS)
@@ -148,30 +148,36 @@ def choose(
 
     Of ``filters``, the first ones are ``LINEAR``; there is no second mixture unless they are
     ``ALL``. If σ is not ``known``, a better one may be found. Mixtures are chosen as if σ were
-    ``caution`` times as large; normals are those after ``evening``. Noise of a ``colour`` is probed
-    by noise of the same: Stein's estimate with its covariance.
+    ``caution`` times as large, and more where there is little but noise to fit; filters look at the
+    mesh after ``evening``. Noise of a ``colour`` is probed by noise of the same: Stein's estimate
+    with its covariance.
     """
     plain = filters != ALL
     mesh = sample.mesh
     bench = Bench.of(mesh, evening)
     probes = [_PROBE * sigma * along[:, None] * normals for along in _directions(bench, colour)]
     others = [mesh.with_vertices(mesh.vertices + probe) for probe in probes]
+    benches = [bench.moved(other) for other in others]  # the weights depend on the noise too
     here = filtered(mesh, bench, filters)
-    there = [filtered(other, bench, filters) for other in others]
+    there = [filtered(other, b, filters) for other, b in zip(others, benches, strict=True)]
     trial = _Trial(mesh, sample.core, probes, (_PROBE * sigma) ** 2, caution)
     k = sum(not one.by_length for one in LINEAR)
     near = _NEAR if colour is None else _NEAR_IF_COLOURED
     level = trial.level(here[1:k], [moved[1:k] for moved in there], sigma, near)
-    sure = _SURE if level is None else math.inf if plain else _SURE_ON_SMOOTH
+    sure = _SURE if level is None else _SURE_OF_MORE
     if level is not None:  # what is left of the noise is all there is of the error
-        trial = replace(trial, caution=max(caution, CAUTION))
+        trial = replace(trial, caution=max(caution, CAUTION_ON_SMOOTH))
     sigma = sigma if known or level is None else level
     first, risk = trial.mixture(here, there, sigma, len(LINEAR), sure)
     if plain:
         return Choice(sigma, filters, first, np.zeros(0), risk)
     here = _seconds(mesh, bench, _mixed(first, here))
-    there = [_seconds(one, bench, _mixed(first, x)) for one, x in zip(others, there, strict=True)]
-    second, risk = trial.mixture(here, there, sigma, 2, sure)
+    there = [
+        _seconds(other, b, _mixed(first, x))
+        for other, b, x in zip(others, benches, there, strict=True)
+    ]
+    trial = replace(trial, caution=max(caution, CAUTION_ON_SMOOTH))
+    second, risk = trial.mixture(here, there, sigma, 1, _SURE_OF_MORE)
     return Choice(sigma, filters, first, second, risk)
 
 

@@ -7,27 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from beltrami._arrays import Floats, Integers
+from beltrami._arrays import Integers
 from beltrami._carded import Carded
 from beltrami._kinds import checked
 from beltrami._progress import Progress
-from beltrami.diffusion.candidates import EVENING_IF_STRONG, SECOND, Bench
-from beltrami.diffusion.choice import (
-    ALL,
-    ALONG_NORMALS,
-    AS_IT_IS,
-    CAUTION,
-    CAUTION_IF_STRONG,
-    LOW_PASSES,
-    Choice,
-    apply,
-    choose,
-    named,
-)
-from beltrami.diffusion.colour import NoiseColour, noise_colour, with_colour
-from beltrami.diffusion.linear_filters import LINEAR, equal_rows
-from beltrami.diffusion.noise import STRONG, NoiseLevel, noise_level
-from beltrami.diffusion.patches import Sample, components_of, part_of, sample_of
+from beltrami.diffusion.blind import blind_choice
+from beltrami.diffusion.candidates import SECOND
+from beltrami.diffusion.choice import ALONG_NORMALS, AS_IT_IS, Choice, apply, named
+from beltrami.diffusion.noise import NoiseLevel
+from beltrami.diffusion.patches import components_of, part_of
 from beltrami.diffusion.vertex_update import require_agreeing_normals
 from beltrami.errors import BeltramiError, check_name
 from beltrami.mesh.door import require_mesh
@@ -39,8 +27,6 @@ _LEAST_SAMPLE = 8_000  # of one part
 _PARTS = 8  # at most, with a choice of their own
 _OWN = 1_000  # vertices of a component below which it has no choice of its own
 _NO_VOLUME = 1e-12  # of the power 3/2 of the area
-_ENOUGH = 1_500  # vertices, from which noise may be told from creases that are everywhere
-_SMALL = 200  # vertices below which only linear filters are trusted
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -190,12 +176,16 @@ def denoise(
     On more than 40,000 faces the mixtures are chosen on patches, eight of each component; below 200
     vertices they are of linear filters alone. The divergences in Stein's estimate are measured by
     one or two small random changes of the input, from a fixed seed (Ramani, Blu and Unser 2008),
-    so the same mesh gives the same result. The mixtures are chosen as if σ were 15 % larger: to
-    take some shape for noise costs little, but what is left of the noise spoils the normals; and
-    the chosen mixture fits the noise it was chosen on. Where the noise is very strong and the shape
-    has details it is 5 %, and the normals, along which the noise is looked for, are those of a mesh
-    that is evened more. The ``predicted_error`` is for σ as it is, and at least σ times the
-    divergence for each vertex, the least that a linear filter leaves.
+    so the same mesh gives the same result. These changes are along the normals of what low passes,
+    chosen the same way, leave of the mesh, and the level is measured along them once more: along
+    normals that have noise of their own, or that have lost the ridges, the estimate would favour
+    the filters which agree with them. Where the noise is very strong, this is done twice.
+
+    The mixtures are chosen as if σ were 8 % larger: to take some shape for noise costs little, but
+    what is left of the noise spoils the normals; and the chosen mixture fits the noise it was
+    chosen on. Where nothing but noise is left to fit, and for the second mixture, it is 15 %. The
+    ``predicted_error`` is for σ as it is, and at least σ times the divergence for each vertex, the
+    least that a linear filter leaves.
     Filters of normals, and the second mixture, are left out where what they gain may be chance.
 
     Components of at least 1000 vertices, the eight largest, have a noise level and mixtures of
@@ -228,7 +218,7 @@ def denoise(
     for i, vertices in enumerate(components):
         part = mesh if len(components) == 1 else part_of(mesh, vertices)
         if part.n_faces:
-            found, choice, bench = _choice(part, noise, method == "linear", size)
+            found, choice, bench = blind_choice(part, noise, size, linear=method == "linear")
             if progress is not None:
                 progress(2 * i + 1, 2 * len(components))
             moved[vertices] = apply(part, bench, choice)
@@ -244,48 +234,6 @@ def _volume_change(before: Mesh, after: Mesh) -> float:
     if not before.is_closed or abs(before.volume) <= _NO_VOLUME * before.area**1.5:
         return math.nan
     return after.volume / before.volume - 1
-
-
-def _choice(
-    mesh: Mesh, noise: float | None, linear: bool, size: int
-) -> tuple[NoiseLevel, Choice, Bench]:
-    """Measure the noise, and choose on a sample of about ``size`` faces; safely, if it is odd."""
-    edge = float(mesh.edge_lengths.mean())
-    caution, bench = CAUTION, Bench.of(mesh)
-    found = noise_level(mesh.topology.adjacency, mesh.vertices, edge, bench.normals)
-    if found.relative > STRONG:
-        caution, bench = CAUTION_IF_STRONG, Bench.of(mesh, EVENING_IF_STRONG)
-        found = noise_level(mesh.topology.adjacency, mesh.vertices, edge, bench.normals)
-    sample = sample_of(mesh, size)
-    normals = bench.normals[sample.vertices]
-    colour = _colour(sample, normals, edge)
-    if colour is not None:
-        found = with_colour(found, colour, equal_rows(sample.mesh))
-    odd = bool(found.warnings)
-    sigma = noise if noise is not None else found.spread if odd else found.sigma
-    if sigma == 0:
-        return found, Choice(0.0, (), np.zeros(0), np.zeros(0), 0.0), bench
-    few = linear or mesh.n_vertices < _SMALL
-    filters = LINEAR if few else LOW_PASSES if odd else ALL
-    choice = choose(
-        sample,
-        float(sigma),
-        normals,
-        filters,
-        known=noise is not None or (odd and colour is None),
-        caution=caution,
-        evening=bench.evening,
-        colour=colour,
-    )
-    return found, choice, bench
-
-
-def _colour(sample: Sample, normals: Floats, edge: float) -> NoiseColour | None:
-    """Return the colour of the noise, if it has one."""
-    if sample.mesh.n_vertices < _ENOUGH:
-        return None
-    found = noise_colour(equal_rows(sample.mesh), sample.mesh.vertices, normals, sample.core)
-    return found if found.is_coloured(edge) else None
 
 
 def _told(vertices: Integers, found: NoiseLevel, choice: Choice) -> DenoisedPart:
