@@ -1,6 +1,6 @@
 """How long smoothing takes, beside every peer that has the method.
 
-python -m benchmarks.smoothing_times [mesh ...]
+python -m benchmarks.smoothing_times [mesh ...] [--output BENCHMARKS-SMOOTHING.md]
 
 The same rounds or steps for everybody, from arrays of vertices and faces to arrays of vertices;
 what a library prepares is counted, because smoothing is called once. CPU seconds of all threads,
@@ -19,7 +19,7 @@ import argparse
 import os
 import statistics
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -27,12 +27,21 @@ from typing import Any
 import numpy as np
 
 from benchmarks.cases import FOLDER_VARIABLE
+from benchmarks.machine import facts
 from benchmarks.noisy_meshes import PAIR, noisy, pair, truth_of
-from benchmarks.packages import package
+from benchmarks.packages import package, versions
 from benchmarks.report import grid
 
 MESHES = (PAIR, "blob 134k", "igea")
 Call = Callable[[], Any]
+HEAD = """# Benchmarks of smoothing
+
+Written by `python -m benchmarks.smoothing_times --output BENCHMARKS-SMOOTHING.md` with one thread.
+The same rounds or steps for everybody, from arrays of vertices and faces to arrays of vertices;
+what a library prepares is counted, because smoothing is called once. CPU seconds, everyone in
+turn. Below 1 we are the fastest. Filters of normals differ in their weights (bilateral here, "two
+steps" in PyMeshLab): the number of rounds is the same, not the result.
+"""
 
 
 def mesh_of(name: str, folder: Path) -> Any:
@@ -130,16 +139,30 @@ def table(mesh: Any, rounds: int) -> str:
     return grid(("work", "ours, s", "peers, s", "ratio to the fastest"), rows)
 
 
+def written(meshes: Sequence[str], rounds: int) -> Iterator[str]:
+    """Yield the parts of the report, a table for each mesh."""
+    yield f"{HEAD}\nMedians of {rounds} calls."
+    for name in meshes:
+        mesh = mesh_of(name, Path(os.environ.get(FOLDER_VARIABLE, "")))
+        yield f"\n## {name}, {mesh.n_vertices:,} vertices\n\n{table(mesh, rounds)}"
+    yield f"\n## Where and when\n\n{grid(('', ''), facts())}"
+    yield f"\n## Versions\n\n{grid(('', ''), versions())}"
+
+
 def main() -> None:
-    """Print a table for each mesh."""
+    """Print the report, or write it."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.smoothing_times",
                                      description=__doc__)  # fmt: skip
     parser.add_argument("meshes", nargs="*", default=MESHES)
     parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--output", type=Path)
     asked = parser.parse_args()
-    for name in asked.meshes:
-        mesh = mesh_of(name, Path(os.environ.get(FOLDER_VARIABLE, "")))
-        print(f"\n{name}, {mesh.n_vertices:,} vertices\n\n{table(mesh, asked.rounds)}", flush=True)
+    parts = []
+    for part in written(asked.meshes, asked.rounds):
+        print(part, flush=True)
+        parts.append(part)
+    if asked.output:
+        asked.output.write_text("\n".join(parts) + "\n")
 
 
 if __name__ == "__main__":

@@ -128,6 +128,7 @@ MESHES = {
     "Diagnosis.to_dict": lambda s: bt.diagnose(s.mesh).to_dict(),
     "repair": lambda s: bt.repair(
         s.mesh,
+        remove_vertices=s.held,
         remove_non_finite=True,
         merge_duplicate_vertices=True,
         remove_degenerate_faces=True,
@@ -151,6 +152,7 @@ MESHES = {
     ),
     "write_mesh": lambda s: _written(s, ".ply.gz").stat().st_size,
     "read_function": lambda s: bt.read_function(_table(s)),
+    "write_function": lambda s: bt.write_function(s.path("g.csv"), s.f, missing=True),
     "compress": lambda s: bt.compress(s.mesh, bits=10),
     "compress data": lambda s: bt.compress(
         s.mesh.with_data(f=s.f), effort="fast", keep_order=True, bits=6

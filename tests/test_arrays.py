@@ -171,3 +171,33 @@ def test_large_arrays_are_copied_once():
         kept[0] = 7
     with pytest.raises(ValueError, match="cannot set WRITEABLE"):
         kept.flags.writeable = True
+
+
+@pytest.mark.parametrize("kind", [RuntimeError, TypeError])
+def test_what_refuses_to_become_an_array_is_one_clear_line(kind):
+    class Tensor:
+        def __array__(self, dtype=None, copy=None):
+            raise kind("Use tensor.detach().numpy() instead.")
+
+    with pytest.raises(DimensionError, match=r"of type Tensor: Use tensor\.detach"):
+        as_function(Tensor(), 3)
+
+
+@pytest.mark.parametrize("kind", [np.uint8, np.int64])
+def test_a_mask_of_zeros_and_ones_is_not_taken_for_indices(kind):
+    mask = np.array([0, 1, 1, 0], kind)
+    with pytest.raises(MeshError, match=r"4 zeros and ones.*astype\(bool\)"):
+        as_indices(mask, 4, "held vertices")
+    assert as_indices(mask.astype(bool), 4, "held vertices").tolist() == [1, 2]
+    assert as_indices(mask, 5, "held vertices").tolist() == [0, 1, 1, 0]  # no mask: too short
+    assert as_indices(mask, 4, "images", repeated=True).tolist() == [0, 1, 1, 0]
+    assert as_indices([1, 0], 2, "held vertices").tolist() == [1, 0]  # all of both
+
+
+def test_values_behind_a_mask_are_not_used():
+    hidden = np.ma.masked_where([False, True, False], [1.0, 99.0, 2.0])
+    with pytest.raises(NonFiniteError, match=r"filled") as caught:
+        as_function(hidden, 3)
+    assert caught.value.vertices.tolist() == [1]
+    assert as_function(np.ma.array([1.0, 2.0]), 2).tolist() == [1, 2]  # nothing is hidden
+    assert as_function(hidden.filled(0), 3).tolist() == [1, 0, 2]

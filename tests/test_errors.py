@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 
 from beltrami import errors
+from beltrami.diffusion.heat import heat
+from beltrami.diffusion.smooth_mesh import smooth_mesh
 from beltrami.errors import (
     ApproximationError,
     BeltramiError,
@@ -24,6 +26,9 @@ from beltrami.errors import (
     UnknownNameError,
     check_name,
 )
+from beltrami.mesh.shapes import icosphere
+from beltrami.operators.laplacian import laplacian
+from beltrami.parameterization.parameterize import parameterize
 
 EXAMPLES = (
     MeshError("bad", vertices=[3, 1], faces=[2], edges=[[0, 1]], remedy="Mend it."),
@@ -167,6 +172,23 @@ def test_unknown_names_list_the_choices_and_the_nearest():
     assert str(caught.value).endswith("Did you mean 'cotangent'?")
     assert caught.value.choices == ("cotangent", "distance")
     assert "Did you mean" not in str(UnknownNameError("weights", "xyz", ("cotangent",)))
+
+
+@pytest.mark.parametrize(
+    ("call", "meant"),
+    [
+        (lambda mesh: laplacian(mesh, "conformal"), "cotangent"),  # as the chapter calls it
+        (lambda mesh: laplacian(mesh, "uniform"), "combinatorial"),
+        (lambda mesh: laplacian(mesh, mass="lumped"), "barycentric"),
+        (lambda mesh: laplacian(mesh, mass="mixed"), "voronoi"),
+        (lambda mesh: smooth_mesh(mesh, "heat"), "implicit"),
+        (lambda mesh: heat(laplacian(mesh), mesh.vertices, 1, "expm"), "exact"),
+        (lambda mesh: parameterize(mesh, "lscm"), "least_squares_conformal"),
+    ],
+)
+def test_names_of_elsewhere_lead_to_ours(call, meant):
+    with pytest.raises(UnknownNameError, match=f"Did you mean '{meant}'"):
+        call(icosphere(1))
 
 
 @pytest.mark.parametrize("name", [None, 3, ["distance"], b"distance", "Distance", ""])

@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from beltrami.grids.transform import dft as dft
     from beltrami.grids.transform import idft as idft
     from beltrami.io.function import read_function as read_function
+    from beltrami.io.function_write import write_function as write_function
     from beltrami.io.registry import read_mesh as read_mesh
     from beltrami.io.registry import write_mesh as write_mesh
     from beltrami.learning.learning_operators import learning_operators as learning_operators
@@ -258,6 +259,7 @@ _HOME = {
     "vertex_order": "compression.compress",
     "wave": "diffusion.wave",
     "wave_kernel_signature": "spectrum.wave_kernel",
+    "write_function": "io.function_write",
     "write_mesh": "io.registry",
     "write_rows": "batch.rows",
     "zoomout": "spectrum.zoomout",

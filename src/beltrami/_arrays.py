@@ -16,6 +16,14 @@ Floats: TypeAlias = NDArray[np.float64]
 Integers: TypeAlias = NDArray[np.int64]
 Booleans: TypeAlias = NDArray[np.bool_]
 
+FUNCTION = "the function"
+GIVE = "Give finite values there."
+LEAVE_OUT = (
+    "Give finite values there, or leave these vertices out with "
+    "repair(mesh, remove_vertices=~np.isfinite(f))."
+)
+DROP = "Drop these vertices with repair(mesh, remove_non_finite=True)."
+
 _HUGE = 2**21  # bytes: a page of memory for those who need much of it
 
 
@@ -88,6 +96,18 @@ def rectangular(array: ArrayLike) -> NDArray[Any]:
         given = np.asarray(array)
     except ValueError as cause:
         raise DimensionError("the rows of an array differ in length") from cause
+    except (RuntimeError, TypeError) as cause:  # a tensor with a gradient, or on another device
+        raise DimensionError(
+            f"no array can be made of an object of type {type(array).__name__}: {cause}"
+        ) from cause
+    if isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
+        hidden = np.atleast_1d(np.ma.getmaskarray(array))
+        raise NonFiniteError(
+            "an array hides some of its values behind a mask, which would be lost",
+            vertices=np.flatnonzero(hidden.reshape(len(hidden), -1).any(axis=1)),
+            remedy="Fill them: f.filled(0). Or leave these vertices out with repair(mesh, "
+            "remove_vertices=f.mask).",
+        )
     if given.dtype.kind not in "biuf":
         raise DimensionError(f"an array of real numbers is needed, not of type {given.dtype}")
     return given
@@ -98,7 +118,7 @@ def as_floats(array: ArrayLike) -> Floats:
     return rectangular(array).astype(np.float64, copy=False)
 
 
-def as_function(f: ArrayLike, n: int, what: str = "the function") -> Floats:
+def as_function(f: ArrayLike, n: int, what: str = FUNCTION) -> Floats:
     """Check a function on n vertices: shape (n,) or (n, c), every value finite.
 
     Chapter items: D5.
@@ -116,11 +136,11 @@ def as_function(f: ArrayLike, n: int, what: str = "the function") -> Floats:
             f"{what} has the shape {values.shape} where ({n},) or ({n}, c) is needed",
             remedy="Give one row for each vertex.",
         )
-    require_finite(values, what)
+    require_finite(values, what, LEAVE_OUT if what.startswith(FUNCTION) else GIVE)
     return values
 
 
-def require_finite(values: NDArray[Any], what: str) -> None:
+def require_finite(values: NDArray[Any], what: str, remedy: str = GIVE) -> None:
     """Raise NonFiniteError, with the rows, if a value is NaN or infinite."""
     finite = np.isfinite(values)
     if not finite.all():
@@ -128,18 +148,18 @@ def require_finite(values: NDArray[Any], what: str) -> None:
         raise NonFiniteError(
             f"{what} has values that are NaN or infinite",
             vertices=rows,
-            remedy="Give finite values there, or drop these vertices with "
-            "repair(mesh, remove_non_finite=True).",
+            remedy=remedy,
         )
 
 
-def as_indices(indices: ArrayLike, n: int, what: str) -> Integers:
+def as_indices(indices: ArrayLike, n: int, what: str, repeated: bool = False) -> Integers:
     """Check a list of indices into n things, or a boolean mask of n values.
 
     Raises
     ------
     MeshError
-        If an index is not an integer in 0..n-1; ``error.vertices`` lists them.
+        If an index is not an integer in 0..n-1; ``error.vertices`` lists them. Also for n zeros
+        and ones, which are a mask by mistake, unless things may well be ``repeated``.
     """
     given = rectangular(indices)
     if given.dtype == np.bool_ and given.shape == (n,):
@@ -148,6 +168,11 @@ def as_indices(indices: ArrayLike, n: int, what: str) -> Integers:
         return np.zeros(0, np.int64)
     if given.dtype.kind not in "iu":
         raise MeshError(f"{what} must be integers or a mask of {n} truth values")
+    if not repeated and given.shape == (n,) and n > 2 and given.min() >= 0 and given.max() <= 1:
+        raise MeshError(
+            f"{what} are {n} zeros and ones, which are no list of indices",
+            remedy="Give a mask as truth values: mask.astype(bool).",
+        )
     flat = given.astype(np.int64).ravel()
     outside = flat[(flat < 0) | (flat >= n)]
     if len(outside):

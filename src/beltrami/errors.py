@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from beltrami._nearest import nearest
 
 __all__ = [
     "ApproximationError", "BeltramiError", "BoundaryCurveError", "ConvergenceError",
@@ -243,10 +244,9 @@ class UnknownNameError(BeltramiError, ValueError):
     def __init__(self, what: str, name: object, choices: Iterable[str]) -> None:
         self.name = name
         self.choices = tuple(choices)
-        near = difflib.get_close_matches(str(name), self.choices, n=1)
-        hint = f" Did you mean {near[0]!r}?" if near else ""
-        listed = ", ".join(repr(choice) for choice in self.choices)
-        super().__init__(f"unknown {what} {shown(name)}: choose one of {listed}.{hint}")
+        near = nearest(str(name), self.choices)
+        listed = ", ".join(map(repr, self.choices)) + (f". Did you mean {near!r}?" if near else ".")
+        super().__init__(f"unknown {what} {shown(name)}: choose one of {listed}")
 
 
 class FileFormatError(BeltramiError, ValueError):

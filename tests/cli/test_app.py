@@ -35,6 +35,16 @@ def test_a_remedy_is_a_command(stray, tmp_path):
     assert "repair(mesh" not in done.stderr
 
 
+def test_python_runs_the_package_as_a_command():
+    version = subprocess.run(
+        [sys.executable, "-m", "beltrami", "--version"], capture_output=True, text=True, check=False
+    )
+    assert (version.returncode, version.stderr) == (0, "")
+    assert version.stdout == shell("--version").stdout
+    usage = [sys.executable, "-m", "beltrami", "smoothe"]
+    assert subprocess.run(usage, capture_output=True, check=False).returncode == 2
+
+
 def test_success_writes_nothing_on_stderr(sphere, tmp_path):
     done = shell("smooth", sphere, "-o", tmp_path / "out.ply")
     assert (done.returncode, done.stderr) == (0, "")

@@ -57,6 +57,25 @@ def test_functions_are_baked(beltrami, ball, tmp_path):
     np.testing.assert_allclose(as_picture(tmp_path / "out.png") * 255, expected)
 
 
+def test_colours_are_baked(beltrami, tmp_path):
+    ball = icosphere(2)
+    colours = np.random.default_rng(0).integers(0, 256, (ball.n_vertices, 4), dtype=np.uint8)
+    write_mesh(tmp_path / "a.ply", ball.with_data(color=colours))
+    words = ("-o", tmp_path / "out.obj", "--size", 64, "--data", tmp_path / "a.ply")
+    done = beltrami("atlas", tmp_path / "a.ply", *words)
+    assert done.exit_code == 0, done.stderr
+    expected = np.rint(255 * bake(atlas(ball, size=64), colours[:, :3]))
+    np.testing.assert_allclose(as_picture(tmp_path / "out.png") * 255, expected, atol=1e-9)
+
+
+def test_what_cannot_be_baked_is_told_before_the_work(beltrami, ball, tmp_path, monkeypatch):
+    monkeypatch.setattr("beltrami.parameterization.atlas.atlas", None)
+    np.save(tmp_path / "f.npy", np.zeros((162, 2)))
+    done = beltrami("atlas", ball, "-o", tmp_path / "out.obj", "--data", tmp_path / "f.npy")
+    assert done.exit_code == 1
+    assert "a function with 2 columns cannot be drawn" in done.stderr
+
+
 def test_holes_are_kept_or_cut(beltrami, tmp_path):
     write_mesh(tmp_path / "ring.obj", cylinder(12, 3))
     words = ("atlas", tmp_path / "ring.obj", "-o", tmp_path / "out.obj", "--max-distortion", 2)

@@ -6,6 +6,8 @@ import pytest
 
 from beltrami.cli import outputs
 from beltrami.errors import UnknownNameError
+from beltrami.io.registry import write_mesh
+from beltrami.mesh.shapes import icosphere
 
 CHECKS = {
     "mesh": (outputs.check_mesh_output, ".obj"),
@@ -70,3 +72,11 @@ def test_frames_go_to_a_file_or_a_folder(tmp_path, monkeypatch):
     for name in ("v1.5", "new", "new.npy"):
         with pytest.raises(PermissionError, match="cannot be written"):
             outputs.check_frames_output(tmp_path / name)
+
+
+@pytest.mark.parametrize("name", ["a.obj", "a.glb", "a.GLB.gz", "a.ply", "a.gii"])
+def test_what_can_be_written_is_a_name_for_a_mesh(tmp_path, name):
+    outputs.check_mesh_output(tmp_path / name)
+    write_mesh(tmp_path / name, icosphere(0))
+    with pytest.raises(UnknownNameError, match=r"\.glb"):
+        outputs.check_mesh_output(tmp_path / "a.gltf")

@@ -2,7 +2,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from beltrami.io.registry import read_mesh
+from beltrami.display.render import render
+from beltrami.io.registry import read_mesh, write_mesh
+from beltrami.mesh.shapes import icosphere
 
 
 def test_several_meshes_side_by_side(beltrami, sphere, tmp_path):
@@ -26,6 +28,20 @@ def test_a_function_gives_colours(beltrami, sphere, tmp_path):
         red, _, blue = np.asarray(picture.convert("RGB"), dtype=int)[:60].transpose(2, 0, 1)
     assert (red - blue).max() > 60  # diverging: red where it is positive ...
     assert (blue - red).max() > 60  # ... blue where it is negative
+
+
+def test_missing_values_have_the_colour_that_is_asked_for(beltrami, sphere, tmp_path):
+    f = read_mesh(sphere).vertices[:, 1] + 2
+    f[f > 2] = np.nan
+    np.save(tmp_path / "f.npy", f)
+    given = ("render", sphere, "--data", tmp_path / "f.npy", "-o", tmp_path / "p.png")
+    done = beltrami(*given)
+    assert done.exit_code == 1
+    assert "NaN" in done.stderr
+    assert beltrami(*given, "--missing", "#00ff00", "--size", 90, 60).exit_code == 0
+    with Image.open(tmp_path / "p.png") as picture:
+        red, green, blue = np.asarray(picture.convert("RGB"), dtype=int)[:60].transpose(2, 0, 1)
+    assert ((green > 60) & (red == 0) & (blue == 0)).any()
 
 
 @pytest.mark.parametrize(
@@ -65,3 +81,20 @@ def test_a_texture(beltrami, tmp_path):
         assert reds[0] == (colours == 1)
     done = beltrami("render", tmp_path / "a.obj", "-o", output, "--texture", tmp_path / "no.png")
     assert done.exit_code == 1
+
+
+@pytest.mark.parametrize("columns", [3, 4])
+def test_colours_of_a_file_are_drawn_as_they_are(beltrami, tmp_path, columns):
+    """Bytes, as scanners write them, are fractions of 255; opacity is left out."""
+    ball = icosphere(1)
+    colours = np.tile(np.array([255, 128, 0, 64], np.uint8)[:columns], (ball.n_vertices, 1))
+    write_mesh(tmp_path / "a.ply", ball.with_data(color=colours))
+    words = ("--size", 32, 32, "-o", tmp_path / "a.png")
+    done = beltrami("render", tmp_path / "a.ply", "--data", tmp_path / "a.ply", *words)
+    assert done.exit_code == 0, done.stderr
+    render(ball, colours[:, :3], tmp_path / "b.png", size=(32, 32))
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
+    write_mesh(tmp_path / "b.ply", ball.with_data(color=colours / 255.0))
+    done = beltrami("render", tmp_path / "b.ply", "--data", tmp_path / "b.ply", *words)
+    assert done.exit_code == 0, done.stderr
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()

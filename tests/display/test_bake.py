@@ -6,6 +6,7 @@ import pytest
 from beltrami.display.bake import bake, colorize
 from beltrami.display.texture import look_up, make_texture
 from beltrami.errors import DimensionError, MeshError, NonFiniteError
+from beltrami.io.picture import as_picture
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import grid, icosphere, torus
 from beltrami.parameterization.atlas import atlas
@@ -79,6 +80,17 @@ def test_colours_and_columns(ring):
     texels = bake(ring, two, 32)
     assert texels.shape == (32, 32, 2)
     np.testing.assert_array_equal(texels[..., 0], bake(ring, two[:, 0], 32))
+
+
+def test_colours_stay_colours_outside_of_the_charts(ring):
+    """Faces go on beyond their sides, there; the values of functions may, too."""
+    steep = np.random.default_rng(1).integers(0, 2, (ring.mesh.n_vertices, 3)) * 255
+    texels = bake(ring, steep.astype(np.uint8))
+    assert (texels.min(), texels.max()) == (0, 1)
+    as_picture(texels)
+    free = bake(ring, steep / 255.0)
+    assert free.max() > 1
+    np.testing.assert_allclose(np.clip(free, 0, 1), texels, atol=1e-12)
 
 
 @pytest.mark.parametrize("size", [1, 2, 7, 40])

@@ -7,7 +7,7 @@ import gzip
 import numpy as np
 import pytest
 
-from beltrami.errors import FileFormatError, MissingExtraError
+from beltrami.errors import FileFormatError, MissingExtraError, NonFiniteError
 from beltrami.io import extras
 from beltrami.io.registry import read_mesh, write_mesh
 from beltrami.mesh.mesh import Mesh
@@ -18,7 +18,7 @@ POINTS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0.5]]
 
 @pytest.mark.parametrize("suffix", extras.WRITERS)
 def test_round_trip(tmp_path, suffix):
-    pytest.importorskip({".gii": "nibabel", ".glb": "trimesh"}.get(suffix, "meshio"))
+    pytest.importorskip({".vtk": "meshio", ".vtu": "meshio"}.get(suffix, "nibabel"))
     write_mesh(tmp_path / f"a{suffix}", Mesh(POINTS, FACES, {"f": np.arange(4.0)}))
     again = read_mesh(tmp_path / f"a{suffix}")
     assert np.array_equal(again.vertices, POINTS)
@@ -41,6 +41,25 @@ def test_freesurfer(tmp_path):
     nibabel = pytest.importorskip("nibabel")
     nibabel.freesurfer.write_geometry(tmp_path / "lh.pial", np.array(POINTS), np.array(FACES))
     assert read_mesh(tmp_path / "lh.pial").faces.tolist() == FACES
+
+
+def test_freesurfer_reads_what_is_written_and_the_bytes_are_the_same_each_time(tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    for name in ("lh.sphere.reg", "rh.white"):
+        write_mesh(tmp_path / name, Mesh(POINTS, FACES))
+        first = (tmp_path / name).read_bytes()
+        write_mesh(tmp_path / name, Mesh(POINTS, FACES))
+        assert (tmp_path / name).read_bytes() == first
+        points, faces = nibabel.freesurfer.read_geometry(tmp_path / name)
+        assert np.array_equal(points, POINTS)
+        assert faces.tolist() == FACES
+
+
+@pytest.mark.parametrize("suffix", extras.SINGLE)
+def test_coordinates_too_large_for_32_bits_are_refused(tmp_path, suffix):
+    with pytest.raises(NonFiniteError, match="32 bits"):
+        write_mesh(tmp_path / f"a{suffix}", Mesh(1e200 * np.array(POINTS), FACES))
+    assert not list(tmp_path.iterdir())
 
 
 def test_polygons(tmp_path):

@@ -46,8 +46,15 @@ def test_shapes_types_and_numbers(dtype):
     assert np.array_equal(OPERATORS.masses, before)
 
 
-def test_devices():
+def test_devices_and_types_of_torch():
     torch = pytest.importorskip("torch")
+    moved = OPERATORS.to("torch", dtype="float64").to("meta")
+    assert {getattr(moved, field.name).device.type for field in fields(moved)} == {"meta"}
+    assert moved.masses.dtype == torch.float64
+    for dtype in (torch.float32, torch.float64):
+        assert OPERATORS.to("torch", dtype=dtype).masses.dtype == dtype
+    with pytest.raises(UnknownNameError, match="float32"):
+        OPERATORS.to("torch", dtype=torch.float16)
     for device in ("meta", torch.device("meta")):  # the one that every machine has
         tensors = OPERATORS.to("torch", device=device)
         for field in fields(LearningOperators):

@@ -314,3 +314,18 @@ def test_a_surface_with_one_side_has_no_volume_after_any_repair():
     with pytest.raises(NotOrientableError, match="one side") as caught:
         _ = plane.volume
     assert "repair" not in caught.value.remedy
+
+
+def test_the_three_counts_make_the_euler_characteristic():
+    mesh = torus(5, 7)
+    assert mesh.n_edges == len(mesh.edges) == 3 * 35
+    assert mesh.n_vertices - mesh.n_edges + mesh.n_faces == mesh.euler_characteristic == 0
+
+
+def test_faces_that_are_floats_are_told_from_polygons():
+    mesh = torus(5, 7)
+    for points, faces in ((mesh.faces, mesh.vertices), (mesh.vertices, mesh.faces * 1.0)):
+        with pytest.raises(DimensionError, match=r"in this order, and faces.astype\(int\)"):
+            Mesh(points, faces)
+    with pytest.raises(DimensionError, match="Triangulate polygons"):
+        Mesh(mesh.vertices, mesh.faces[:, [0, 1, 2, 0]])

@@ -3,7 +3,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from beltrami.errors import MeshError
+from beltrami._arrays import as_function
+from beltrami.errors import MeshError, NonFiniteError
 from beltrami.mesh.diagnose import diagnose
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.repair import repair
@@ -306,3 +307,53 @@ def test_a_cavity_stays_a_cavity():
     beside = hollow.with_vertices(hollow.vertices + np.repeat([[0.0], [9]], n, axis=0))
     both = outer.volume + inner.volume
     assert repair(beside, orient=True).mesh.volume == pytest.approx(both)
+
+
+@given(any_meshes(), generators())
+@settings(max_examples=30)
+def test_remove_vertices_drops_these_their_faces_and_nothing_else(mesh, rng):
+    mesh = laden(mesh, rng)
+    unwanted = rng.random(mesh.n_vertices) < 0.3
+    fixed = repair(mesh, remove_vertices=unwanted)
+    check_maps(mesh, fixed)
+    assert np.array_equal(fixed.vertex_origin, np.flatnonzero(~unwanted))
+    assert np.array_equal(fixed.face_map < 0, unwanted[mesh.faces].any(axis=1))
+    assert same(repair(mesh, remove_vertices=np.flatnonzero(unwanted)).mesh, fixed.mesh)
+    assert len(fixed.done) == unwanted.any()
+
+
+def test_what_a_removed_vertex_leaves_alone_is_dropped_when_asked():
+    fan = Mesh([[0, 0], [1, 0], [0, 1], [-1, 0]], [[0, 1, 2], [0, 2, 3]])
+    assert repair(fan, remove_vertices=[3]).mesh.n_vertices == 3
+    both = {"remove_vertices": [1], "remove_unreferenced": True}
+    fixed = repair(fan, **both)
+    assert fixed.vertex_map.tolist() == [0, -1, 1, 2]
+    assert fixed.done == ("removed 1 vertex as asked",)
+    assert repair(fan, remove_vertices=[0], remove_unreferenced=True).mesh.n_vertices == 0
+    assert repair(fan, remove_vertices=[]).done == ()
+
+
+@pytest.mark.parametrize("unwanted", [[4], [-1], [True], [0.5]])
+def test_vertices_to_remove_exist(unwanted):
+    fan = Mesh([[0, 0], [1, 0], [0, 1], [-1, 0]], [[0, 1, 2], [0, 2, 3]])
+    with pytest.raises(MeshError, match="vertices to remove"):
+        repair(fan, remove_vertices=unwanted)
+
+
+def test_the_remedy_for_a_function_without_values_is_one():
+    mesh = icosphere(1)
+    f = np.ones(mesh.n_vertices)
+    f[[0, 5]] = np.nan
+    with pytest.raises(NonFiniteError, match=r"remove_vertices=~np.isfinite\(f\)") as caught:
+        as_function(f, mesh.n_vertices)
+    part = repair(mesh, remove_vertices=~np.isfinite(f))
+    assert np.array_equal(caught.value.vertices, np.flatnonzero(part.vertex_map < 0))
+    assert as_function(f[part.vertex_origin], part.mesh.n_vertices).all()
+
+
+def test_nothing_is_left_and_later_steps_have_nothing_to_do():
+    triangle = Mesh(np.full((3, 3), np.nan), [[0, 1, 2]])
+    fixed = repair(triangle, **dict.fromkeys(KEYWORDS, True))
+    assert fixed.vertex_map.tolist() == [-1, -1, -1]
+    assert fixed.face_map.tolist() == [-1]
+    assert fixed.mesh.n_vertices == len(fixed.vertex_origin) == 0

@@ -17,10 +17,10 @@ def less_one(mesh):
     return Mesh(mesh.vertices, mesh.faces[1:])
 
 
-def mapped(mesh, weights=WEIGHTS, free=False, settled=3e-3):
+def mapped(mesh, weights=WEIGHTS, free=False, settled=3e-3, rough=False):
     loop = mesh.boundary_loops[0]
     placed = place_boundary(mesh, loop, "circle")
-    return disk_map(mesh, weights, loop, placed, free=free, settled=settled)
+    return disk_map(mesh, weights, loop, placed, free=free, settled=settled, rough=rough)
 
 
 @pytest.fixture
@@ -34,6 +34,7 @@ def sizes(monkeypatch):
         return reweighted(mesh, *rest, **options)
 
     monkeypatch.setattr(coarse_to_fine, "_LARGE", 300)
+    monkeypatch.setattr(coarse_to_fine, "_ROUGH", (300, 4))
     monkeypatch.setattr(coarse_to_fine, "reweighted", noted)
     return found
 
@@ -42,6 +43,20 @@ def test_a_free_boundary_is_not_that_of_a_coarser_mesh(sizes):
     mesh = less_one(icosphere(3))
     mapped(mesh, free=True)
     assert set(sizes) == {mesh.n_vertices}
+
+
+def test_unless_the_map_need_only_be_rough(sizes):
+    """Of a cap: the rough map is all of the coarser mesh, folds nowhere, and is nearly as good."""
+    ball = icosphere(4)
+    cap = ball.vertices[ball.faces][..., 2].min(axis=1) > 0.3
+    used, local = np.unique(ball.faces[cap], return_inverse=True)
+    mesh = Mesh(ball.vertices[used], local.reshape(-1, 3))
+    rough = mapped(mesh, free=True, settled=1e-2, rough=True)
+    assert max(sizes) < mesh.n_vertices / 2
+    assert rough.flips == 0
+    assert len(rough.uv) == mesh.n_vertices
+    fine = mapped(mesh, free=True, settled=1e-2)
+    assert rough.rank[1] < 1.1 * fine.rank[1]
 
 
 def test_weights_of_the_users_own_are_for_the_mesh_as_it_is(sizes):

@@ -1,5 +1,7 @@
 """The free boundary: derivatives against differences, no fold on the way, isometries found."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -16,6 +18,7 @@ from beltrami.parameterization.isometric_energy import (
     shrinking,
 )
 from beltrami.parameterization.parameterize import parameterize
+from beltrami.parameterization.predicates import orientation
 from beltrami.parameterization.relaxation import relax
 from meshes_of_the_errata import cur, open_
 
@@ -255,3 +258,54 @@ def test_the_unit_of_length_does_not_matter(unit):
         parameterize(m, "free") for m in (mesh, mesh.with_vertices(mesh.vertices * unit))
     )
     np.testing.assert_allclose(scaled.uv, psi.uv * unit, atol=1e-6 * unit)
+
+
+CORNER = Mesh([[0.0, 0], [1, 0], [0, 1]], [[0, 1, 2]])  # its map has the determinant u × v
+THIN = np.array([[0.0, 0], [1, 0], [0.5, 1e-30]])
+TURNED = np.array(  # over, by less than the rounding of the determinant, 9e-16
+    [
+        [3.773675439784382, 3.4355118193187146],
+        [1.1165413367618093, 1.0164867171041838],
+        [1.9891478109538643, 1.810897869715688],
+    ]
+)
+
+
+def evened(before, after):
+    """Return what is left of a sweep over a triangle, and whether it was taken."""
+    around = SimpleNamespace(swept=lambda x, scale, count, rough: after)
+    x, energy = relaxation._evened(
+        isometric_energy(CORNER), before, 1.0, around, 7.0, np.ones(3, bool)
+    )
+    assert (energy == 7.0) == (x is before)
+    return x, x is not before
+
+
+def rounded(a, b, c):
+    u, v = b - a, c - a
+    return np.sign(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).astype(np.int8)
+
+
+def test_a_sweep_that_turns_a_face_over_by_less_than_a_rounding_is_not_taken(monkeypatch):
+    """Its energy is finite, and less than before: only the exact sign tells. Rounded ones err."""
+    corners = [corner[None] for corner in TURNED]
+    assert (orientation(*corners), rounded(*corners)) == (-1, 1)
+    assert np.isfinite(total(CORNER, TURNED))
+    assert total(CORNER, TURNED) < total(CORNER, THIN)
+    x, taken = evened(THIN, TURNED)
+    assert not taken
+    assert certify(CORNER, x).is_bijective
+    monkeypatch.setattr(relaxation, "orientation", rounded)
+    x, taken = evened(THIN, TURNED)
+    assert taken
+    assert not certify(CORNER, x).is_bijective
+
+
+def test_a_sweep_is_taken_if_the_energy_falls():
+    right = CORNER.vertices[:, :2]
+    x, taken = evened(THIN, right)
+    assert taken
+    np.testing.assert_array_equal(x, right)
+    assert not evened(right, THIN)[1]
+    assert not evened(right, right)[1]
+    assert not evened(right, right * [1, np.nan])[1]

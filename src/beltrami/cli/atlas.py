@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from beltrami.cli.console import print_json, waiting
-from beltrami.cli.functions import read_data
+from beltrami.cli.functions import read_drawn
 from beltrami.cli.options import Data, DataName, Json, MeshFile
 from beltrami.cli.outputs import check_texture_output
 
@@ -72,7 +72,7 @@ def atlas(
         raise typer.BadParameter("--data makes the texture: leave out --texture")
     with waiting(f"reading {mesh.name}"):
         read = read_mesh(mesh)
-        baked = None if data is None else read_data(data, read, data_name)
+        baked = None if data is None else read_drawn(data, read, data_name)
         picture = None if texture is None else _picture(texture, size)
     with waiting("mapping") as progress:
         found = room.atlas(
@@ -104,10 +104,11 @@ def _picture(texture: str, size: int) -> Any:
 
 
 def _baked(found: TextureAtlas, values: Any, colormap: Any, limits: Any) -> Any:
+    """Make a picture; colours that go on beyond the charts stay colours."""
     from beltrami.display.bake import bake, colorize
 
     texels = bake(found, values)
-    return colorize(texels, colormap, limits) if texels.ndim == 2 else texels
+    return colorize(texels, colormap, limits) if texels.ndim == 2 else texels.clip(0, 1)
 
 
 def report(output: Path, found: TextureAtlas, *, json: bool) -> None:

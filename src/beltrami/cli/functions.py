@@ -18,22 +18,34 @@ def read_data(path: Path, mesh: Mesh, name: str | None = None) -> Floats:
     return as_function(read_function(path, name), mesh.n_vertices, f"the function of {path}")
 
 
-def write_values(path: Path, mesh: Mesh, name: str, values: Floats) -> None:
-    """Write values to .npy or .txt, or the mesh with the values as a named function to .ply.
+def read_drawn(path: Path, mesh: Mesh, name: str | None = None, missing: bool = False) -> Floats:
+    """Read numbers or colours to be drawn, (n,) or (n, 3), as ``render`` asks for them.
 
-    The suffix was checked before the work, by ``check_values_output``.
+    Colours may be bytes, as in most files; of four columns the last one, opacity, is left out.
     """
     import numpy as np
 
-    from beltrami.io.atomic import replacing
+    from beltrami._arrays import as_function
+    from beltrami.display.values import as_values
+    from beltrami.io.function import read_values
+
+    held = read_values(path, name, missing=missing)
+    shown = held[:, :3] if held.ndim == 2 and held.shape[1] == 4 else held
+    kept = np.uint8 if held.dtype == np.uint8 else np.float64
+    as_function(np.where(np.isnan(held), 0, held), mesh.n_vertices, f"the function of {path}")
+    values = as_values(mesh, shown.astype(kept), missing)
+    return values[:, 0] if values.shape[1] == 1 else values
+
+
+def write_values(path: Path, mesh: Mesh, name: str, values: Floats) -> None:
+    """Write values to a file, or the mesh with the values as a named function to .ply.
+
+    The suffix was checked before the work, by ``check_values_output``.
+    """
+    from beltrami.io.function_write import write_function
     from beltrami.io.registry import write_mesh
 
-    suffix = path.suffix.lower()
-    if suffix == ".npy":
-        with replacing(path) as file:
-            np.save(file, values, allow_pickle=False)
-    elif suffix in (".txt", ".csv"):
-        with replacing(path) as file:
-            np.savetxt(file, values, fmt="%.17g", delimiter="," if suffix == ".csv" else " ")
-    else:
+    if path.suffix.lower() == ".ply":
         write_mesh(path, mesh.with_data(**{name: values}))
+    else:
+        write_function(path, values)

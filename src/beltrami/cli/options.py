@@ -39,13 +39,13 @@ Output = Annotated[
         "-o",
         "--output",
         metavar="FILE",
-        help="File to write: the mesh; of --data .npy .txt .csv .ply.",
+        help="File to write: the mesh; of --data .npy .txt .csv .ply .gii.",
     ),
 ]
 Values = Annotated[
     Path,
     typer.Option(
-        "-o", "--output", metavar="FILE", help="Values: .npy .txt .csv, or .ply with the mesh."
+        "-o", "--output", metavar="FILE", help="Values: .npy .txt .csv .gii, or .ply with the mesh."
     ),
 ]
 Data = Annotated[

@@ -6,7 +6,7 @@ import errno
 import os
 from pathlib import Path
 
-VALUES = (".npy", ".txt", ".csv", ".ply")  # what values can be written to
+VALUES = (".npy", ".txt", ".csv", ".ply", ".gii", ".mgh", ".mgz")  # what values are written to
 
 
 def check_mesh_output(path: Path) -> None:

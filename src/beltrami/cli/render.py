@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from beltrami.cli.console import waiting
-from beltrami.cli.functions import read_data
+from beltrami.cli.functions import read_drawn
 from beltrami.cli.options import Data, DataName
 from beltrami.cli.outputs import check_picture_output
 
@@ -37,6 +37,10 @@ def render(
     limits: Annotated[
         tuple[float, float] | None, Option(help="Range of the colours.", show_default=False)
     ] = None,
+    missing: Annotated[
+        str | None,
+        Option(metavar="COLOR", help="Colour where --data is NaN.", show_default=False),
+    ] = None,
     texture: Annotated[
         str | None,
         Option(
@@ -52,11 +56,12 @@ def render(
     from beltrami.io.registry import read_mesh
 
     check_picture_output(output)
-    if data is None and (colormap, limits, data_name) != (None, None, None):
-        raise typer.BadParameter("--colormap, --limits and --data-name go with --data")
+    if data is None and (colormap, limits, data_name, missing) != (None, None, None, None):
+        raise typer.BadParameter("--colormap, --limits, --missing and --data-name go with --data")
     with waiting("reading"):
         read = [read_mesh(path) for path in meshes]
-        functions = [None if data is None else read_data(data, read[0], data_name)]
+        holes = missing is not None
+        functions = [None if data is None else read_drawn(data, read[0], data_name, holes)]
     several = len(read) > 1
     with waiting("drawing"):
         picture = draw(
@@ -71,6 +76,7 @@ def render(
             wireframe=wireframe,
             colormap=colormap,
             limits=limits,
+            missing=missing,
             texture=texture if texture in (None, "checkerboard") else Path(texture),
             caption=[path.name for path in meshes] if several and captions else None,
         )

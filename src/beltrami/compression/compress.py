@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from beltrami._arrays import Floats, Integers, require_finite, whole
+from beltrami._arrays import DROP, Floats, Integers, require_finite, whole
 from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.compression.attributes import Attributes, check_errors, encode_attributes
@@ -199,7 +199,7 @@ def vertex_order(mesh: Mesh | Topology) -> Integers:
 
 def _check(mesh: Mesh, max_error: float | None, bits: int | None) -> None:
     """Raise if the mesh or the bound cannot be coded."""
-    require_finite(mesh.vertices, "the mesh")
+    require_finite(mesh.vertices, "the mesh", DROP)
     if mesh.dimension > MOST_COORDINATES:
         raise DimensionError(f"positions of more than {MOST_COORDINATES} coordinates")
     if max_error is not None and bits is not None:

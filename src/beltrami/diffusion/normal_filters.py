@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from beltrami._arrays import Floats
-from beltrami._jit import kernel
+from beltrami._jit import kernel, unsigned
 from beltrami.diffusion.face_rings import FaceRings
 from beltrami.diffusion.normal_guides import guide_normals
 from beltrami.mesh.mesh import Mesh
@@ -37,13 +37,13 @@ def filtered_normals(
     normals = np.array(mesh.face_normals)
     sigma = _mean_distance(mesh.topology.twins, centres) * (2 if guided else 1)
     starts, later = np.empty(len(normals) + 1, np.int64), np.empty(len(rings.indices), np.int32)
-    later = later[: _later(*rings, starts, later)].copy()
+    later = unsigned(later[: _later(*rings, starts, later)].copy())
     near = np.empty(len(later))
     _weigh(starts, later, centres, -0.5 / sigma**2 if sigma > 0 else 0.0, near)
     state = np.empty((len(normals), 9))
     while True:
         guides = guide_normals(mesh.topology, rings, normals, areas) if guided else normals
-        state[:, :3], state[:, 3:6], state[:, 6:] = guides, areas[:, None] * normals, 0
+        _lay_out(guides, areas, normals, state)
         filtered = np.empty_like(normals)
         _filter(starts, later, near, -1 / contrast**2, state, normals, filtered)
         normals = filtered
@@ -90,6 +90,16 @@ def _weigh(starts: Any, later: Any, centres: Any, factor: float, near: Any) -> N
             b = centres[i, 1] - centres[j, 1]
             c = centres[i, 2] - centres[j, 2]
             near[q] = np.exp(factor * (a * a + b * b + c * c))
+
+
+@kernel
+def _lay_out(guides: Any, areas: Any, normals: Any, state: Any) -> None:
+    """Write rows of g, A n and 0, as ``_filter`` reads them."""
+    for i in range(areas.size):
+        for k in range(3):
+            state[i, k] = guides[i, k]
+            state[i, 3 + k] = areas[i] * normals[i, k]
+            state[i, 6 + k] = 0.0
 
 
 @kernel

@@ -37,7 +37,8 @@ def bake(atlas: TextureAtlas | Mesh, f: ArrayLike, size: int | None = None) -> F
     atlas
         Of ``atlas``; or a mesh with ``corner_uv`` in [0, 1]².
     f
-        (n,) or (n, c) values at the vertices of the surface; bytes become fractions of 255.
+        (n,) or (n, c) values at the vertices of the surface; bytes become fractions of 255, and
+        stay between 0 and 1 outside of the charts.
     size
         Texels along a side; by default that of the atlas, and 1024 for a mesh.
 
@@ -81,11 +82,14 @@ def bake(atlas: TextureAtlas | Mesh, f: ArrayLike, size: int | None = None) -> F
             remedy="Give atlas(mesh), whose coordinates are inside.",
         )
     values = as_function(f, mesh.n_vertices)
-    if np.asarray(f).dtype == np.uint8:
+    bytes_given = np.asarray(f).dtype == np.uint8
+    if bytes_given:
         values = values / 255.0
     corners = values.reshape(mesh.n_vertices, -1)[mesh.faces]
     xy = np.ascontiguousarray(np.stack([uv[..., 0], 1 - uv[..., 1]], axis=2) * side)
     texels = _baked(xy, np.ascontiguousarray(corners), side)
+    if bytes_given:
+        np.clip(texels, 0.0, 1.0, out=texels)
     return texels[..., 0] if values.ndim == 1 else texels
 
 

@@ -54,6 +54,7 @@ def draw_panel(panel: Panel, style: Style) -> Image:
         line=np.array(INK),
         wire=np.array(INK),
         wire_width=0.6 * width if style.wireframe else 0.0,
+        missing=as_color(style.color if style.missing is None else style.missing),
         **texture,
     )
     return shade(triangles, visible, strokes, paint, samples)
@@ -69,7 +70,7 @@ def _colors(panel: Panel, style: Style) -> tuple[Floats, Floats]:
     low, high = panel.limits
     half = high / 2 - low / 2  # of large limits, the difference overflows
     if half == 0:  # a constant function has the colour in the middle
-        return np.full(panel.values.shape, 0.5), panel.table
+        return np.where(np.isnan(panel.values), np.nan, 0.5), panel.table
     with np.errstate(over="ignore"):
         scaled = (panel.values / 2 - low / 2) / half
     # Pixels beyond the limits are cut in the kernel: a cut at the vertices would bend f inside

@@ -98,13 +98,15 @@ def make_panels(
     limits: Any,
     level_set: Levels,
     texture: Any = None,
+    missing: bool = False,
 ) -> list[Panel]:
     """Check the functions and textures, and choose colours, limits and level sets."""
     values = [
-        None if f is None else as_values(mesh, f) for mesh, f in zip(meshes, functions, strict=True)
+        None if f is None else as_values(mesh, f, missing)
+        for mesh, f in zip(meshes, functions, strict=True)
     ]
     seen = [
-        seen_values(mesh, v).ravel() if v is not None and v.shape[1] == 1 else None
+        _numbers(seen_values(mesh, v)) if v is not None and v.shape[1] == 1 else None
         for mesh, v in zip(meshes, values, strict=True)
     ]
     if isinstance(limits, str):
@@ -122,6 +124,10 @@ def make_panels(
         ends, table = choose_limits(s, limits, colormap)
         panels.append(Panel(mesh, camera, v, ends, table, _levels(level_set, s), text))
     return panels
+
+
+def _numbers(values: Floats) -> Floats:
+    return np.asarray(values[~np.isnan(values)])
 
 
 def textured(meshes: list[Mesh], functions: list[Any], texture: Any) -> list[Texture | None]:

@@ -46,6 +46,7 @@ def render(
     font: str | PathLike[str] | None = None,
     shading: str = "gouraud",
     color: Color = CLAY,
+    missing: Color | None = None,
     background: Color = "white",
     back: str = "tint",
     light: Light | None = None,
@@ -101,6 +102,9 @@ def render(
         ``"gouraud"``: light interpolated between the vertices; ``"flat"``: constant on a face.
     color, background
         A name, ``"#rrggbb"``, or sRGB in [0, 1].
+    missing
+        The colour of faces with a vertex where f is NaN, as maps have it where nothing was
+        measured. By default NaN is an error.
     back
         The inside of the surface, where faces turn their backs: ``"tint"`` in slate, so that
         holes and flipped faces are told from the outside, ``"same"``, or ``"hide"``.
@@ -154,10 +158,21 @@ def render(
         wireframe,
         line_width,
         antialias,
+        missing,
     )
     meshes, functions, captions = paired(mesh, f, caption)
     cameras = place_cameras(meshes, camera, view=view, up=up, zoom=zoom, focus=focus)
-    panels = make_panels(meshes, functions, captions, cameras, colormap, limits, level_set, texture)
+    panels = make_panels(
+        meshes,
+        functions,
+        captions,
+        cameras,
+        colormap,
+        limits,
+        level_set,
+        texture,
+        missing is not None,
+    )
     if columns is not None and columns < 1:
         raise MeshError(f"{columns} columns, where at least 1 is needed")
     pictures = [draw_panel(panel, style) for panel in panels]

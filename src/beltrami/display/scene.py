@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from beltrami._arrays import Floats, require_finite
+from beltrami._arrays import DROP, Floats, require_finite
 from beltrami.display.camera import Camera
 from beltrami.display.light import SHADINGS, Light
 from beltrami.display.srgb import Color, as_color
@@ -37,12 +37,15 @@ class Style:
     wireframe: bool = False
     line_width: float | None = None
     antialias: int = 2
+    missing: Color | None = None
 
     def __post_init__(self) -> None:
         check_name("shading", self.shading, SHADINGS)
         check_name("back", self.back, BACKS)
         as_color(self.color)
         as_color(self.background, "the background")
+        if self.missing is not None:
+            as_color(self.missing, "the colour of missing values")
         _check_counts("antialias", (self.antialias,), 1, 8)
         _check_counts("the size (width, height)", self.size, 2, _LONGEST // self.antialias)
         for name in ("ambient", "fill", "line_width"):
@@ -105,7 +108,7 @@ def check_mesh(mesh: Mesh) -> None:
         )
     if not mesh.n_faces:
         raise EmptyMeshError("a mesh without faces cannot be drawn")
-    require_finite(mesh.vertices, "the position")
+    require_finite(mesh.vertices, "the position", DROP)
 
 
 def _check_counts(what: str, values: Any, length: int, greatest: int) -> None:

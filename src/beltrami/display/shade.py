@@ -36,6 +36,8 @@ class Paint(NamedTuple):
         sRGB.
     line, wire : (3,) float
         sRGB of the level lines and of the sides.
+    missing : (3,) float
+        sRGB of triangles with a value that is NaN.
     wire_width : float
         In samples; 0 draws no sides.
     uv : (t, 3, 2) float
@@ -57,6 +59,7 @@ class Paint(NamedTuple):
     uv: Floats = np.zeros((0, 3, 2))
     pixels: NDArray[np.float32] = np.zeros((0, 3), np.float32)
     levels: Integers = np.zeros((0, 3), np.int64)
+    missing: Floats = np.zeros(3)
 
 
 def shade(
@@ -95,7 +98,7 @@ def shade(
             np.ascontiguousarray(paint.back),
             np.ascontiguousarray(paint.inside),
             float(paint.tint),
-            np.stack([paint.background, paint.line, paint.wire]),
+            np.stack([paint.background, paint.line, paint.wire, paint.missing]),
             float(paint.wire_width),
             np.ascontiguousarray(paint.uv),
             paint.pixels,
@@ -144,7 +147,7 @@ def _shade(
                     behind, wire = _barycentric(xy[t], x, y, borders[t], wire_width, b)
                     light = _shared(back[t] if behind else front[t], nearness[t], b)
                     if levels.shape[0] == 0 or np.isnan(uv[t]).any():
-                        _paint(values[t], table, b, color)
+                        _paint(values[t], table, extras[3], b, color)
                     else:
                         _read(pixels, levels, uv[t], xy[t], nearness[t], x, y, b, color)
                     for c in range(3):
@@ -213,13 +216,16 @@ def _shared(light: Any, nearness: Any, b: Any) -> float:
 
 
 @kernel
-def _paint(values: Any, table: Any, b: Any, color: Any) -> None:
+def _paint(values: Any, table: Any, missing: Any, b: Any, color: Any) -> None:
     """Set the colour: interpolate the value, then look it up; or interpolate sRGB."""
     if values.shape[1] == 3:
         for c in range(3):
             color[c] = b[0] * values[0, c] + b[1] * values[1, c] + b[2] * values[2, c]
         return
     value = b[0] * values[0, 0] + b[1] * values[1, 0] + b[2] * values[2, 0]
+    if np.isnan(value):
+        color[:] = missing
+        return
     place = min(max(value, 0.0), 1.0) * (table.shape[0] - 1)
     k = min(int(place), table.shape[0] - 2)
     for c in range(3):

@@ -5,17 +5,18 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, as_function, rectangular
+from beltrami._arrays import GIVE, Floats, as_function, rectangular
 from beltrami.display.colormaps import color_table, is_signed, symmetric_limits
 from beltrami.display.framing import named_vertices
-from beltrami.errors import DimensionError, MeshError, shown
+from beltrami.errors import DimensionError, MeshError, NonFiniteError, shown
 from beltrami.mesh.mesh import Mesh
 
 
-def as_values(mesh: Mesh, f: ArrayLike) -> Floats:
+def as_values(mesh: Mesh, f: ArrayLike, missing: bool = False) -> Floats:
     """(n, 1) numbers or (n, 3) colours: a function on the vertices, checked.
 
-    Colours are sRGB, in [0, 1], or integers of 0 to 255 of the type uint8.
+    Colours are sRGB, in [0, 1], or integers of 0 to 255 of the type uint8. Numbers, but not all
+    of those that are seen, may be NaN where values may be ``missing``.
 
     Raises
     ------
@@ -27,7 +28,13 @@ def as_values(mesh: Mesh, f: ArrayLike) -> Floats:
         If a colour is outside [0, 1].
     """
     given = rectangular(f)
-    values = as_function(given, mesh.n_vertices).reshape(mesh.n_vertices, -1)
+    holes = missing and given.dtype.kind == "f" and given.shape[1:] in ((), (1,))
+    absent = np.isnan(given) if holes else np.zeros(given.shape, np.bool_)
+    values = as_function(np.where(absent, 0, given), mesh.n_vertices).reshape(mesh.n_vertices, -1)
+    if absent.any():
+        values[absent] = np.nan
+        if np.isnan(seen_values(mesh, values)).all():
+            raise NonFiniteError("the function has no value that is seen", remedy=GIVE)
     if values.shape[1] not in (1, 3):
         raise DimensionError(
             f"a function with {values.shape[1]} columns cannot be drawn",

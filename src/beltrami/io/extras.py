@@ -14,17 +14,20 @@ from beltrami._arrays import Floats
 from beltrami._optional import require
 from beltrami.errors import FileFormatError, MissingExtraError
 from beltrami.io.faces import fan, first_outside
+from beltrami.io.gltf import read_scene
 from beltrami.io.packed_inside import require_room
-from beltrami.io.picture import Picture, as_pillow
 from beltrami.io.source import plain_file
 from beltrami.io.unpacking import Room, room_of
 from beltrami.mesh.mesh import Mesh
 
 _MESHIO = (".vtk", ".vtu", ".msh", ".mesh", ".inp")
-_TRIMESH = (".glb", ".gltf")
-TEXTURED = (".glb",)
+_GLTF = (".glb", ".gltf")
 _UV = "texture coordinates of a package"  # among the vertex data, until the mesh is made
-_FREESURFER = (".pial", ".white", ".inflated", ".sphere", ".orig", ".smoothwm")
+_FREESURFER = (
+    ".pial", ".white", ".inflated", ".sphere", ".reg", ".orig", ".smoothwm", ".nofix", ".graymid",
+    ".midthickness",
+)  # fmt: skip
+SINGLE = (".gii", *_FREESURFER)  # what holds coordinates of 32 bits
 
 
 def read(path: str | os.PathLike[str], suffix: str, max_bytes: int | None = None) -> Mesh:
@@ -105,13 +108,9 @@ def _by_meshio(meshio: Any, place: Path) -> Any:
     raise FileFormatError(place, f"expected a {place.suffix} file ({'; '.join(reasons)})")
 
 
-def _read_trimesh(place: Path, _room: Room) -> Any:
-    trimesh = require("trimesh", "io", f"reading {place.suffix}")
-    scene = trimesh.load_scene(place, process=False)
-    whole = scene.to_mesh()
-    uv = getattr(whole.visual, "uv", None)
-    turns = {} if uv is None else {_UV: np.asarray(uv, np.float64)}
-    return whole.vertices, whole.faces, turns
+def _read_gltf(place: Path, _room: Room) -> Any:
+    vertices, faces, uv = read_scene(place)
+    return vertices, faces, {} if uv is None else {_UV: uv}
 
 
 def encode(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
@@ -130,6 +129,14 @@ def _encode_gifti(mesh: Mesh, vertices: Floats, _suffix: str) -> bytes:
     return bytes(gifti.GiftiImage(darrays=[points, triangles]).to_bytes())
 
 
+def _encode_freesurfer(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
+    freesurfer = require("nibabel.freesurfer", "io", "writing FreeSurfer surfaces")
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder, "lh" + suffix)
+        freesurfer.write_geometry(place, vertices, mesh.faces, create_stamp="created by beltrami")
+        return place.read_bytes()
+
+
 def _encode_meshio(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
     meshio = require("meshio", "io", f"writing {suffix}")
     data = {name: array for name, array in mesh.vertex_data.items() if array.dtype.kind in "iuf"}
@@ -140,38 +147,15 @@ def _encode_meshio(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
         return place.read_bytes()
 
 
-def _encode_trimesh(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
-    return encode_textured(mesh, vertices, suffix, None, None)
-
-
-def encode_textured(
-    mesh: Mesh, vertices: Floats, suffix: str, uv: Floats | None, texture: Picture | None
-) -> bytes:
-    """Return the bytes of a file with texture coordinates (m, 3, 2) and a picture."""
-    trimesh = require("trimesh", "io", f"writing {suffix}")
-    x, faces, look = np.array(vertices), np.array(mesh.faces), None
-    if uv is not None:
-        corners = np.column_stack([faces.ravel(), np.nan_to_num(uv.reshape(-1, 2), nan=0.0)])
-        copies, turn = np.unique(corners, axis=0, return_inverse=True)
-        x, faces = x[copies[:, 0].astype(np.int64)], turn.reshape(-1, 3)
-        look = trimesh.visual.TextureVisuals(uv=copies[:, 1:])
-        if texture is not None:
-            look.material = trimesh.visual.material.PBRMaterial(
-                baseColorTexture=as_pillow(texture), metallicFactor=0.0, roughnessFactor=1.0
-            )
-    whole = trimesh.Trimesh(x, faces, visual=look, process=False)
-    return bytes(whole.export(file_type=suffix[1:]))
-
-
 READERS: dict[str, Callable[[Path, Room], Any]] = {
     ".gii": _read_gifti,
     **dict.fromkeys(_FREESURFER, _read_freesurfer),
     **dict.fromkeys(_MESHIO, _read_meshio),
-    **dict.fromkeys(_TRIMESH, _read_trimesh),
+    **dict.fromkeys(_GLTF, _read_gltf),
 }
 WRITERS: dict[str, Callable[[Mesh, Floats, str], bytes]] = {
     ".gii": _encode_gifti,
+    **dict.fromkeys(_FREESURFER, _encode_freesurfer),
     ".vtk": _encode_meshio,
     ".vtu": _encode_meshio,
-    ".glb": _encode_trimesh,
 }

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from beltrami._arrays import read_only
 from beltrami.errors import FileFormatError, MeshError
 from beltrami.io import obj_kernel as lines
-from beltrami.io.source import Source, trimmed
+from beltrami.io.source import Source, mark_length, trimmed
 from beltrami.mesh.mesh import Mesh
 
 _NO_LIMIT = 1 << 62
@@ -84,7 +84,7 @@ def _fill(source: Source, state: NDArray[np.int64], limits: NDArray[np.int64]) -
         lines.MORE_FACES: (faces, turns),
     }
     for start, block in source.blocks():
-        state[lines.POSITION] = 0
+        state[lines.POSITION] = 0 if start else mark_length(block)
         status = lines.scan(block, state, limits, x, rgba, uv, faces, turns)
         while status in full:
             for array in full[status]:

@@ -42,7 +42,7 @@ def write_obj(
     """
     if material:
         file.write(f"mtllib {material}\n".encode())
-    rows = np.hstack([vertices, _colours(mesh)])
+    rows = np.hstack([vertices, vertex_colours(mesh)])
     write_rows(file, "v" + " %r" * rows.shape[1], rows)
     corner_uv = corner_texture(mesh, uv)
     if corner_uv is None:
@@ -70,7 +70,8 @@ def material_text(picture: str) -> bytes:
     return f"newmtl {MATERIAL}\nKa 0 0 0\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd {picture}\n".encode()
 
 
-def _colours(mesh: Mesh) -> Floats:
+def vertex_colours(mesh: Mesh) -> Floats:
+    """Return the vertex data "color" as fractions, (n, 3) or (n, 4); (n, 0) if there are none."""
     colour = mesh.vertex_data.get("color")
     if colour is None or colour.ndim != 2 or colour.shape[1] not in (3, 4):
         return np.empty((mesh.n_vertices, 0))

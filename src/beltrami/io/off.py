@@ -12,7 +12,7 @@ from beltrami._arrays import read_only
 from beltrami._jit import kernel
 from beltrami.io.lanes import plain_faces
 from beltrami.io.numbers import next_line, read_integer, read_number, skip_blanks
-from beltrami.io.source import Source, trimmed
+from beltrami.io.source import Source, mark_length, trimmed
 from beltrami.mesh.mesh import Mesh
 
 _DONE, _NOT_FINITE, _COLUMNS, _NOT_INTEGER, _TOO_FEW, _NO_VERTEX, _MORE, _LEFT = range(8)
@@ -61,7 +61,9 @@ def read_off(source: Source) -> Mesh:
 def _header(source: Source) -> tuple[str, tuple[int, int], int]:
     """Find the keyword, the counts of vertices and faces, and where the data starts."""
     head = source.data[: 16 * _HEADER].tobytes()
-    text = re.sub(rb"#[^\n]*", lambda comment: b" " * len(comment.group()), head)
+    mark = mark_length(source.data)
+    text = b" " * mark + head[mark:]  # with all positions as they are, as below
+    text = re.sub(rb"#[^\n]*", lambda comment: b" " * len(comment.group()), text)
     keyword = re.match(rb"\s*((?:ST)?C?N?OFF)(?=\s|$)", text)
     if keyword is None:
         place = len(text) - len(text.lstrip())

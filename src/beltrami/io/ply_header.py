@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from beltrami.errors import FileFormatError
-from beltrami.io.source import Source
+from beltrami.io.source import Source, mark_length
 
 TYPES = {
     "char": "i1",
@@ -77,13 +77,13 @@ def read_header(source: Source) -> Header:
     >>> read_header(Source("a.ply", np.frombuffer(text, np.uint8))).elements[0].properties
     [Property(name='x', type='f4', length=None)]
     """
-    head = _head(source)
+    start = mark_length(source.data)
+    head = _head(source)[start:]
     if not head.startswith((b"ply\n", b"ply\r")):
-        raise source.unexpected(0, "the word ply on a line of its own")
+        raise source.unexpected(start, "the word ply on a line of its own")
     newline = b"\n" if head.startswith((b"ply\n", b"ply\r\n")) else b"\r"
     order: str | None = None
     elements: list[Element] = []
-    start = 0
     for number, line in enumerate(head.split(newline), 1):
         start += len(line) + 1
         words = line.decode("latin-1").split()

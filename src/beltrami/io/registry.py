@@ -11,7 +11,7 @@ from typing import IO, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beltrami._arrays import Floats, as_floats, require_finite
+from beltrami._arrays import DROP, Floats, as_floats, require_finite
 from beltrami._kinds import checked
 from beltrami.errors import (
     DimensionError,
@@ -22,6 +22,7 @@ from beltrami.errors import (
 )
 from beltrami.io import extras
 from beltrami.io.atomic import replacing
+from beltrami.io.glb_write import glb_bytes, write_glb
 from beltrami.io.obj import read_obj
 from beltrami.io.obj_write import corner_texture, material_text, write_obj
 from beltrami.io.off import read_off
@@ -45,8 +46,9 @@ WRITERS: dict[str, Callable[[IO[bytes], Mesh, Floats], None]] = {
     ".off": write_off,
     ".ply": write_ply,
     ".stl": write_stl,
+    ".glb": write_glb,
 }
-TEXTURED = (".obj", *extras.TEXTURED)
+TEXTURED = (".obj", ".glb")
 _FLOAT32_MAX = float(np.finfo(np.float32).max)
 
 
@@ -120,8 +122,10 @@ def write_mesh(
 
     What a format cannot hold is left out: OBJ keeps coordinates, texture coordinates and the
     vertex data "color"; OFF coordinates, "color" and "normal"; PLY coordinates and all numeric
-    vertex data, with their types; STL only coordinates, rounded to 32 bits, as in GLB. Everything
-    else reads back bit for bit. A flat mesh (d = 2) is written with z = 0.
+    vertex data, with their types; STL only coordinates, rounded to 32 bits, as in GIFTI and
+    FreeSurfer's files (``lh.pial`` ...); GLB, in 32 bits too, what OBJ keeps, and normals, so that
+    viewers shade it smoothly (see ``glb_bytes``). Everything else reads back bit for bit. A flat
+    mesh (d = 2) is written with z = 0.
 
     Parameters
     ----------
@@ -148,7 +152,7 @@ def write_mesh(
     EmptyMeshError
         If there are no faces.
     NonFiniteError
-        If a coordinate is NaN or infinite, or too large for STL.
+        If a coordinate is NaN or infinite, or too large for 32 bits where the format has those.
 
     Examples
     --------
@@ -221,11 +225,10 @@ def _write(
 ) -> None:
     if suffix == ".obj":
         write_obj(file, mesh, vertices, uv, material)
+    elif suffix == ".glb":
+        file.write(glb_bytes(mesh, vertices, corner_texture(mesh, uv), texture))
     elif suffix in WRITERS:
         WRITERS[suffix](file, mesh, vertices)
-    elif suffix in extras.TEXTURED:
-        turns = corner_texture(mesh, uv)
-        file.write(extras.encode_textured(mesh, vertices, suffix, turns, texture))
     else:
         file.write(extras.encode(mesh, vertices, suffix))
 
@@ -240,8 +243,8 @@ def _writable(mesh: Mesh, suffix: str) -> Floats:
         )
     if mesh.n_faces == 0:
         raise EmptyMeshError("a mesh without faces cannot be written", remedy="Add faces.")
-    require_finite(mesh.vertices, "the coordinates")
-    if suffix == ".stl":
+    require_finite(mesh.vertices, "the coordinates", DROP)
+    if suffix in (".stl", ".glb", *extras.SINGLE):
         small = np.where(np.abs(mesh.vertices) <= _FLOAT32_MAX, mesh.vertices, np.inf)
-        require_finite(small, "the coordinates, rounded to the 32 bits of STL,")
+        require_finite(small, f"the coordinates, rounded to the 32 bits of {suffix[1:].upper()},")
     return mesh.vertices if d == 3 else np.hstack([mesh.vertices, np.zeros((n, 3 - d))])

@@ -19,6 +19,7 @@ from beltrami.io.unpacking import gunzipped, room_of
 
 _SHOWN = 40  # of the bytes at fault
 _BLOCK = 1 << 20  # bytes read at a time: they stay in the processor's cache
+_MARK = b"\xef\xbb\xbf"
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,6 +102,14 @@ class Source:
     def at_byte(self, position: int, problem: str) -> FileFormatError:
         """Make the error for a binary file."""
         return FileFormatError(self.path, problem, byte=int(position))
+
+
+def mark_length(text: NDArray[np.uint8]) -> int:
+    """Return how many bytes the mark of UTF-8 takes at the beginning of a text, 3 or 0.
+
+    It is no part of the first line, which would be none of its format with it.
+    """
+    return len(_MARK) if text[: len(_MARK)].tobytes() == _MARK else 0
 
 
 def _last_line(text: bytearray, end: int) -> int:

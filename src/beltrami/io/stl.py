@@ -12,7 +12,7 @@ from beltrami._jit import kernel
 from beltrami.errors import FileFormatError
 from beltrami.io.faces import fan
 from beltrami.io.numbers import next_line, read_number, skip_blanks
-from beltrami.io.source import Source, trimmed
+from beltrami.io.source import Source, mark_length, trimmed
 from beltrami.io.weld import weld
 from beltrami.mesh.mesh import Mesh
 
@@ -61,7 +61,7 @@ def read_stl(source: Source) -> Mesh:
     expected = _HEADER + _TRIANGLE.itemsize * count
     if count >= 0 and size == expected:
         corners, sizes = _read_binary(source, count), np.full(count, 3)
-    elif source.data[:512].tobytes().lstrip()[:5].lower() == b"solid":
+    elif source.data[mark_length(source.data) :][:512].tobytes().lstrip()[:5].lower() == b"solid":
         corners, sizes = _read_text(source)
     elif count < 0:
         raise source.at_byte(
@@ -97,9 +97,10 @@ def _read_binary(source: Source, count: int) -> Floats:
 def _read_text(source: Source) -> tuple[Floats, NDArray[np.int64]]:
     rows = len(source.data) // 12 + 1  # "vertex 0 0 0" is the shortest line of a vertex
     corners, sizes = np.empty((rows, 3)), np.empty(rows, np.int64)
-    position, k, m, status = _scan(source.data, corners, sizes, _WORDS)
+    start = mark_length(source.data)
+    position, k, m, status = _scan(source.data[start:], corners, sizes, _WORDS)
     if status != _DONE:
-        raise source.unexpected(position, _EXPECTED[status])
+        raise source.unexpected(start + position, _EXPECTED[status])
     return trimmed(corners, k), trimmed(sizes, m)
 
 

@@ -6,16 +6,17 @@ import numpy as np
 
 from beltrami._arrays import Floats
 from beltrami.errors import FileFormatError, check_name
-from beltrami.io.source import Source
+from beltrami.io.source import Source, mark_length
 
 _SEPARATORS = bytes.maketrans(b",;", b"  ")
 
 
-def read_table(source: Source, name: str | None = None) -> Floats:
+def read_table(source: Source, name: str | None = None, missing: bool = False) -> Floats:
     r"""Read rows of numbers parted by blanks, commas or semicolons: (n,) or (n, c).
 
     Text after ``#`` and blank lines are skipped. A first line that is not all numbers names the
     columns; then ``name`` chooses one.
+    NaN is a number where values may be ``missing``.
 
     Raises
     ------
@@ -32,7 +33,8 @@ def read_table(source: Source, name: str | None = None) -> Floats:
     """
     rows: list[list[float]] = []
     names: list[str] = []
-    for number, line in enumerate(source.data.tobytes().split(b"\n"), 1):
+    text = source.data[mark_length(source.data) :].tobytes()
+    for number, line in enumerate(text.split(b"\n"), 1):
         words = line.split(b"#")[0].translate(_SEPARATORS).split()
         if not words:
             continue
@@ -47,7 +49,7 @@ def read_table(source: Source, name: str | None = None) -> Floats:
             names = [word.decode("latin-1").strip("\"'") for word in words]
             continue
         width = len(rows[0]) if rows else len(names) or len(row)
-        if len(row) != width or not np.isfinite(row).all():
+        if len(row) != width or not _valid(row, missing):
             raise FileFormatError(
                 source.path,
                 f"expected {width} finite numbers, as on the lines before, found {row[:5]}",
@@ -60,3 +62,8 @@ def read_table(source: Source, name: str | None = None) -> Floats:
     if name is not None:
         return np.ascontiguousarray(table[:, names.index(check_name("column", name, names))])
     return table[:, 0] if table.shape[1] == 1 else table
+
+
+def _valid(row: list[float], missing: bool) -> bool:
+    values = np.array(row)
+    return not np.isinf(values).any() if missing else bool(np.isfinite(values).all())

@@ -64,7 +64,7 @@ class LearningOperators:
         indices, starts = real.indices.copy(), real.indptr.copy()
         return read_only_matrix(csr_array((data, indices, starts), shape=real.shape))
 
-    def to(self, target: str, *, device: Any = "cpu", dtype: str = "float32") -> Tensors:
+    def to(self, target: str, *, device: Any = "cpu", dtype: Any = "float32") -> Tensors:
         """Return the same as tensors of ``"torch"``; sparse ones are coalesced COO.
 
         Parameters
@@ -74,7 +74,7 @@ class LearningOperators:
         device
             As torch calls it: ``"cpu"``, ``"cuda:0"``, ``torch.device(...)``.
         dtype
-            ``"float32"`` or ``"float64"``.
+            ``"float32"`` or ``"float64"``, or ``torch.float32`` or ``torch.float64``.
 
         Raises
         ------
@@ -90,4 +90,4 @@ class LearningOperators:
         ``network(features, **operators.to("torch").arguments)`` is a call of DiffusionNet.
         """
         check_name("target", target, ("torch",))
-        return as_tensors(vars(self), device, dtype)
+        return as_tensors(vars(self), device, str(dtype).removeprefix("torch."))

@@ -33,6 +33,10 @@ class Tensors:
         n, k = self.eigenvectors.shape
         return f"<Tensors: {n} vertices, {k} eigenpairs, {self.masses.dtype}, {self.masses.device}>"
 
+    def to(self, device: Any) -> Tensors:
+        """Return the same on another device: loaded where the files are, used on the card."""
+        return Tensors(*(getattr(self, field.name).to(device) for field in fields(Tensors)))
+
     @property
     def arguments(self) -> dict[str, Any]:
         """What the ``forward`` of DiffusionNet takes, by its names."""

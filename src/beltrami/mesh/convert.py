@@ -61,7 +61,7 @@ def as_mesh(source: Any) -> Mesh:
         return _of_polyscope(source)
     raise MeshError(
         f"cannot make a mesh of an object of type {type(source).__name__}",
-        remedy="Give a pair (vertices, faces)."
+        remedy="Give a pair (vertices, faces); read_mesh reads a file."
         + (" Of a scene, give scene.to_mesh()." if hasattr(source, "to_mesh") else ""),
     )
 

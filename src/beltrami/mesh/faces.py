@@ -9,6 +9,9 @@ from beltrami._arrays import Integers, frozen, rectangular, whole
 from beltrami._jit import unsigned
 from beltrami.errors import DimensionError, MeshError
 
+_POLYGONS = "Triangulate polygons; read_mesh does it for files."
+_WHOLE = "Give Mesh(vertices, faces), in this order, and faces.astype(int) if these are indices."
+
 
 def checked_faces(faces: ArrayLike, n_vertices: int | None) -> tuple[Integers, int]:
     """Return the faces as a read-only (m, 3) int64 array, and the number of vertices.
@@ -27,7 +30,7 @@ def checked_faces(faces: ArrayLike, n_vertices: int | None) -> tuple[Integers, i
         raise DimensionError(
             f"faces are an array of shape {given.shape} and type {given.dtype} where (m, 3) "
             "integers are needed",
-            remedy="Triangulate polygons; read_mesh does it for files.",
+            remedy=_WHOLE if given.dtype.kind == "f" else _POLYGONS,
         )
     array = frozen(given, np.int64)
     if n_vertices is None:

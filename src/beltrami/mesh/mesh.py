@@ -13,12 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from beltrami._arrays import Floats, Integers, frozen, read_only, rectangular
 from beltrami._carded import Carded
 from beltrami._frozen import Frozen
-from beltrami.errors import (
-    DimensionError,
-    MeshError,
-    NotClosedError,
-    shown,
-)
+from beltrami.errors import DimensionError, MeshError, NotClosedError, shown
 from beltrami.mesh import geometry
 from beltrami.mesh.export import export
 from beltrami.mesh.requirements import require_edge_manifold, require_oriented
@@ -146,6 +141,11 @@ class Mesh(Frozen, Carded):
     def n_faces(self) -> int:
         """Number of faces m."""
         return len(self.faces)
+
+    @property
+    def n_edges(self) -> int:
+        """Number of edges p."""
+        return self.topology.n_edges
 
     @property
     def dimension(self) -> int:

@@ -6,8 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from beltrami._arrays import Booleans, Integers, read_only
+from beltrami._arrays import Booleans, Integers, as_indices, read_only
 from beltrami._kinds import checked
 from beltrami.errors import MeshError
 from beltrami.mesh.door import require_mesh
@@ -47,6 +48,7 @@ class Repair:
 def repair(
     mesh: Mesh,
     *,
+    remove_vertices: ArrayLike = (),
     remove_non_finite: bool = False,
     merge_duplicate_vertices: bool = False,
     tolerance: float = 0.0,
@@ -63,6 +65,9 @@ def repair(
     ----------
     mesh
         Any mesh.
+    remove_vertices
+        Drop these vertices (indices or a mask), and their faces: a part of no interest, or
+        where a function has no values. Neighbours that lose their last face stay.
     remove_non_finite
         Drop vertices with a NaN or infinite coordinate, and their faces.
     merge_duplicate_vertices
@@ -87,7 +92,8 @@ def repair(
     Raises
     ------
     MeshError
-        If ``tolerance`` is negative, or given without ``merge_duplicate_vertices``.
+        If ``tolerance`` is negative, or given without ``merge_duplicate_vertices``, or a vertex
+        to remove does not exist.
 
     Notes
     -----
@@ -107,7 +113,9 @@ def repair(
             f"tolerance is a fraction of the diagonal, at most 0.1 and not {tolerance}, "
             "and goes with merge_duplicate_vertices=True"
         )
+    unwanted = as_indices(remove_vertices, mesh.n_vertices, "vertices to remove")
     steps: list[tuple[bool, Callable[[_Work], str]]] = [
+        (len(unwanted) > 0, lambda work: _remove_vertices(work, unwanted)),
         (remove_non_finite, _remove_non_finite),
         (merge_duplicate_vertices, lambda work: _merge(work, tolerance)),
         (remove_degenerate_faces, _remove_degenerate),
@@ -152,8 +160,12 @@ class _Work:
         number = np.where(kept, np.cumsum(kept) - 1, -1)
         self.faces = number[self.faces]
         self.origin = self.origin[kept]
-        self.vertex_map = np.where(self.vertex_map >= 0, number[self.vertex_map], -1)
+        self.renumber(number)
         return int(np.count_nonzero(~kept))
+
+    def renumber(self, number: Integers) -> None:
+        """Follow old vertices to new numbers; -1, for those that are gone, stays -1."""
+        self.vertex_map = np.append(number, -1)[self.vertex_map]
 
     def turn_faces(self, turned: Booleans) -> int:
         self.faces[turned] = self.faces[turned][:, [0, 2, 1]]
@@ -174,10 +186,20 @@ def _line(verb: str, count: int, one: str, many: str) -> str:
     return f"{verb} {count} {one if count == 1 else many}" if count else ""
 
 
+def _remove_vertices(work: _Work, unwanted: Integers) -> str:
+    wanted = np.ones(len(work.origin), np.bool_)
+    wanted[unwanted] = False
+    return _line("removed", _drop(work, wanted), "vertex as asked", "vertices as asked")
+
+
+def _drop(work: _Work, kept: Booleans) -> int:
+    """Keep only these vertices, and the faces all of whose vertices are among them."""
+    work.keep_faces(np.asarray(kept[work.faces].all(axis=1)))
+    return work.keep_vertices(kept)
+
+
 def _remove_non_finite(work: _Work) -> str:
-    finite = np.isfinite(work.positions).all(axis=1)
-    work.keep_faces(finite[work.faces].all(axis=1))
-    count = work.keep_vertices(finite)
+    count = _drop(work, np.isfinite(work.positions).all(axis=1))
     return _line("removed", count, "vertex that was not finite", "vertices that were not finite")
 
 
@@ -185,7 +207,7 @@ def _merge(work: _Work, tolerance: float) -> str:
     targets = merge_targets(work.positions, tolerance)
     kept = targets == np.arange(len(targets))
     work.faces = targets[work.faces]
-    work.vertex_map = np.where(work.vertex_map >= 0, targets[work.vertex_map], -1)
+    work.renumber(targets)
     count = work.keep_vertices(kept)
     return _line("merged", count, "duplicate vertex", "duplicate vertices")
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from beltrami._arrays import Booleans, Floats, Integers, read_only, require_finite
+from beltrami._arrays import DROP, Booleans, Floats, Integers, read_only, require_finite
 from beltrami._jit import kernel
 from beltrami.errors import (
     DegenerateFaceError,
@@ -78,7 +78,7 @@ def _require_cuttable(mesh: Mesh) -> None:
             vertices=np.flatnonzero(~topology.referenced),
             remedy="Drop them with repair(mesh, remove_unreferenced=True).",
         )
-    require_finite(mesh.vertices, "the mesh")
+    require_finite(mesh.vertices, "the mesh", DROP)
     require_oriented(
         topology,
         "neighbouring faces disagree on which side is outside",

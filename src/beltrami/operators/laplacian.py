@@ -98,7 +98,8 @@ def laplacian(
     if not isinstance(domain, Mesh | Topology):
         raise DimensionError(
             f"cannot make a Laplacian of an object of type {type(domain).__name__}",
-            remedy="Give a Mesh (see as_mesh), a Topology or a symmetric sparse matrix.",
+            remedy="Give a Mesh (see as_mesh), a Topology, a Grid, PointCloud(points), or a "
+            "symmetric sparse matrix.",
         )
     default = "cotangent" if isinstance(domain, Mesh) else "combinatorial"
     rule = default if weights is None else weights

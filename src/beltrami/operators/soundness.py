@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from beltrami._arrays import Floats, require_finite
+from beltrami._arrays import DROP, Floats, require_finite
 from beltrami.errors import (
     DegenerateFaceError,
     EmptyMeshError,
@@ -41,7 +41,7 @@ def refuse_unreferenced(topology: Topology) -> None:
 
 def require_positions(mesh: Mesh) -> None:
     """Raise NonFiniteError, with the vertices, if a coordinate is NaN or infinite."""
-    require_finite(mesh.vertices, "the mesh")
+    require_finite(mesh.vertices, "the mesh", DROP)
 
 
 def refuse_flat_faces(mesh: Mesh) -> None:

@@ -12,7 +12,7 @@ from beltrami._jit import kernel
 from beltrami.mesh.mesh import Mesh
 from beltrami.parameterization.block_pattern import BlockPattern
 
-_REACH = 0.25  # of the shorter one of an edge and the edges at a vertex
+_REACH = 0.25  # of the shorter one of an edge, the height of its face, the edges at a vertex
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,7 +21,9 @@ class Barrier:
 
     With the distance d of a vertex from an edge that does not end there, and a reach r: infinite
     where they touch, 0 where they are not near (J. Smith, S. Schaefer, Bijective parameterization
-    with free boundaries, 2015). Reaches are a quarter of the edges as they are now.
+    with free boundaries, 2015). Reaches are a quarter of the edges as they are now; or of the
+    height of the face over an edge if that is less, lest the far corner of a needle is pushed away
+    from its own face, for which there is the energy of the face.
 
     Attributes
     ----------
@@ -64,13 +66,18 @@ class Barrier:
 
 def boundary_barrier(mesh: Mesh, x: Floats) -> Barrier:
     """Return the barrier whose reaches are those of the positions x."""
-    edges = mesh.topology.boundary_edges
-    lengths = np.linalg.norm(x[edges[:, 0]] - x[edges[:, 1]], axis=1)
+    face, corner = np.nonzero(mesh.topology.twins < 0)
+    edges = mesh.faces[face[:, None], (corner[:, None] + [1, 2]) % 3]
+    side, up = x[edges[:, 1]] - x[edges[:, 0]], x[mesh.faces[face, corner]] - x[edges[:, 0]]
+    lengths = np.hypot(side[:, 0], side[:, 1])
+    doubled = np.abs(side[:, 0] * up[:, 1] - side[:, 1] * up[:, 0])
+    heights = np.divide(doubled, lengths, where=lengths > 0, out=np.zeros_like(lengths))
     near_vertices = np.full(mesh.n_vertices, np.inf)
     np.minimum.at(near_vertices, edges.ravel(), np.repeat(_REACH * lengths, 2))
     ends = mesh.vertices[edges]
     weights = ((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1) / mesh.area
-    return Barrier(np.unique(edges), edges, near_vertices, _REACH * lengths, weights)
+    near_edges = _REACH * np.minimum(lengths, heights)
+    return Barrier(np.unique(edges), edges, near_vertices, near_edges, weights)
 
 
 @kernel

@@ -17,6 +17,7 @@ from beltrami.parameterization.components import Request, map_component, settle
 from beltrami.parameterization.disk_cells import segment_into_disks
 from beltrami.parameterization.distortion import measured
 from beltrami.parameterization.parameterize import DEFAULT_WEIGHTS
+from beltrami.parameterization.reweighting import Step
 
 _APART = 4.0  # gaps in space that are far apart
 _PIECES = 10_000  # of a boundary edge, at most
@@ -55,13 +56,15 @@ def map_chart(
     """
     whole = cut_to_disk(part)
     hopeless = _HOPEFUL * asked.max_distortion
+    known: Step | None = None
     for seams in sorted({0, asked.seams}):
         weights = DEFAULT_WEIGHTS.get(asked.method, ())
         circle = ("circle", "arclength", None, 0.0)
         wanted = Request(asked.method, weights, *circle, seams, cut=True, draw=False, rough=True)
         all_faces = np.ones(part.n_faces, np.bool_)
-        found = map_component(whole, np.zeros((whole.mesh.n_vertices, 2)), all_faces, wanted)
-        cut, uv = found.cut, found.uv
+        at = np.zeros((whole.mesh.n_vertices, 2))
+        found = map_component(whole, at, all_faces, wanted, known)
+        cut, uv, known = found.cut, found.uv, found.step
         made = _charts(cut, uv, faces, origin, mesh.n_faces)
         if max((_distortion(chart, mesh) for chart in made), default=0.0) > hopeless:
             continue

@@ -24,6 +24,7 @@ _RELAXATIONS = 800  # steps of it, at most
 _LARGE = 5000  # vertices from which a coarser mesh comes first
 _COARSER = 4  # times fewer vertices
 _HARDLY = 1.5  # likewise: if no more can go, it does not pay
+_ROUGH = 1000, 8  # likewise, of a rough map
 _SWEEPS = 10  # over a map that is made of a coarser one
 _LOOSER = 0.15  # power of the size, over the least large one, by which a large mesh settles sooner
 
@@ -36,6 +37,7 @@ def disk_map(
     *,
     free: bool,
     settled: float,
+    rough: bool = False,
 ) -> Step:
     """Map a disk by reweighting and relaxation; the next weights only where the start is bad.
 
@@ -47,15 +49,17 @@ def disk_map(
     Iterations are cheap there, where the way is long; here they end the sooner, the dearer they
     are. Weights that are no name of weights may not be for another mesh: there, and where an
     insertion folds, the mesh is mapped as it is. So it is with a free boundary, which comes to
-    rest elsewhere if it is that of a coarser mesh first.
+    rest elsewhere if it is that of a coarser mesh first; unless the map need only be rough: then
+    it is that of a mesh with an eighth of the vertices, for disks of 1,000 and more, with the
+    others inserted and not relaxed.
     """
     named = all(isinstance(kind, str) for kind in weights)
     step = None
-    if named and not free:
+    if named and (rough or not free):
         last = settled * (mesh.n_vertices / _LARGE) ** _LOOSER
-        step = _from_coarser(mesh, weights, loop, placed, settled, last)
+        step = _from_coarser(mesh, weights, loop, placed, free, settled, last, rough)
     if step is None:
-        high = _BAD if free else _HIGH
+        high = _BAD if free or rough else _HIGH
         step = _as_it_is(mesh, weights, loop, placed, free=free, settled=settled, high=high)
     return step
 
@@ -99,23 +103,26 @@ def _from_coarser(
     weights: tuple[str | Weigher, ...],
     loop: Integers,
     placed: Floats,
+    free: bool,
     settled: float,
     last: float,
+    rough: bool,
 ) -> Step | None:
     """Map a coarser mesh, then this one from there; None if that is not possible.
 
     ``last`` says when this one is settled, ``settled`` when those before are.
     """
-    if mesh.n_vertices < _LARGE:
+    large, coarser = _ROUGH if rough else (_LARGE, _COARSER)
+    if mesh.n_vertices < large:
         return None
-    coarse = thinned(mesh, mesh.n_vertices // _COARSER)
+    coarse = thinned(mesh, mesh.n_vertices // coarser)
     if _HARDLY * coarse.mesh.n_vertices > mesh.n_vertices:
         return None
     given = coarse.mesh, weights, np.searchsorted(coarse.kept, loop), placed
     try:
-        found = _from_coarser(*given, settled, settled)
+        found = _from_coarser(*given, free, settled, settled, rough)
         if found is None:
-            found = _as_it_is(*given, free=False, settled=settled, high=_BAD)
+            found = _as_it_is(*given, free=free, settled=settled, high=_BAD)
     except SingularMatrixError:  # areas of a map beyond the range of doubles
         return None
     if found.flips:
@@ -123,7 +130,8 @@ def _from_coarser(
     scale = best_scale(isometric_energy(coarse.mesh).sums(found.uv))
     uv = inserted(mesh, coarse, found.uv, scale)
     uv = stars(mesh).swept(uv, scale, _SWEEPS)
-    if assess(mesh, uv).flips:
-        return None
+    step = assess(mesh, uv)
+    if rough or step.flips:
+        return None if step.flips else step
     step = _relaxed(mesh, uv, False, last)
     return None if step.flips else step

@@ -59,17 +59,26 @@ class Request:
 
 @dataclass(frozen=True, eq=False)
 class Mapped:
-    """The mesh with the seams that a component needed, positions of all, and if it was drawn."""
+    """The mesh with the seams that a component needed, positions of all, and if it was drawn.
+
+    ``step`` is the map of the component, before it was settled or drawn.
+    """
 
     cut: Cut
     uv: Floats
     drawn: bool
+    step: Step
 
 
-def map_component(current: Cut, uv: Floats, faces: Booleans, asked: Request) -> Mapped:
-    """Map one component, with more seams where it is bad and they are allowed."""
+def map_component(
+    current: Cut, uv: Floats, faces: Booleans, asked: Request, start: Step | None = None
+) -> Mapped:
+    """Map one component, with more seams where it is bad and they are allowed.
+
+    ``start`` is its map without a seam, if that is known.
+    """
     part, number = part_of(current.mesh, faces)
-    best = _solved(current, part, number, asked)
+    best = _solved(current, part, number, asked) if start is None else start
     seams, tries = asked.seams if asked.cut else 0, 0
     while True:
         folded = best.flips > 0 and asked.cut and asked.rescue
@@ -93,7 +102,7 @@ def map_component(current: Cut, uv: Floats, faces: Booleans, asked: Request) -> 
     drawn = best.flips > 0 and asked.rescue and asked.draw
     finish = asked.method == "free" and asked.compares and not asked.rough and not best.flips
     uv[number] = _drawn(part) if drawn else settle(part, best.uv, None) if finish else best.uv
-    return Mapped(current, uv, drawn)
+    return Mapped(current, uv, drawn, best)
 
 
 def _solved(current: Cut, part: Mesh, number: Integers, asked: Request) -> Step:
@@ -119,7 +128,9 @@ def _solved(current: Cut, part: Mesh, number: Integers, asked: Request) -> Step:
         return assess(part, uv)
     free = asked.method == "free"
     settled = (_ROUGHLY if asked.compares else _TO_THE_LAST) if free else _SETTLED
-    return disk_map(part, asked.weights, loop, placed, free=free, settled=settled)
+    return disk_map(
+        part, asked.weights, loop, placed, free=free, settled=settled, rough=free and asked.rough
+    )
 
 
 def _held(number: Integers, corners: Integers | None) -> Integers | None:

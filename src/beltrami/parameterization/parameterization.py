@@ -92,7 +92,7 @@ class Parameterization(Carded):
         barycentric
             (q, 3) coordinates in them, which add to 1.
         """
-        at = as_indices(faces, self.mesh.n_faces, "faces")
+        at = as_indices(faces, self.mesh.n_faces, "faces", repeated=True)
         weights = as_function(barycentric, len(at), "the barycentric coordinates")
         if weights.shape != (len(at), 3):
             raise DimensionError(f"barycentric coordinates are ({len(at)}, 3)")

@@ -124,7 +124,7 @@ def functional_map_from_points(
     >>> bool(abs(same.matrix - np.eye(10)).max() < 1e-9)
     True
     """
-    points = as_indices(point_map, source.n, "the vertices of a point map")
+    points = as_indices(point_map, source.n, "the vertices of a point map", repeated=True)
     if len(points) != target.n:
         raise DimensionError(
             f"a point map needs one source vertex for each of {target.n} target vertices, "

@@ -133,7 +133,7 @@ def _coefficients(
         if pairs.ndim != 2 or pairs.shape[1] != 2:
             raise DimensionError("landmarks are pairs (p, 2) of a source and a target vertex")
         for column, (basis, sides) in enumerate(((source, left), (target, right))):
-            vertices = as_indices(pairs[:, column], basis.n, "landmarks")
+            vertices = as_indices(pairs[:, column], basis.n, "landmarks", repeated=True)
             sides.append(unit_vectors(basis, basis.k)[vertices].T)
     A, B = np.concatenate(left, axis=1), np.concatenate(right, axis=1)
     if not A.shape[1]:
