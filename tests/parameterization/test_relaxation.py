@@ -273,9 +273,10 @@ TURNED = np.array(  # over, by less than the rounding of the determinant, 9e-16
 
 def evened(before, after):
     """Return what is left of a sweep over a triangle, and whether it was taken."""
-    around = SimpleNamespace(swept=lambda x, scale, count, chosen: after)
-    model = SimpleNamespace(energy=isometric_energy(CORNER), scale=1.0)
-    x, energy = relaxation._evened(model, before, before, np.zeros((3, 2)), around, 7.0)
+    around = SimpleNamespace(swept=lambda x, scale, count, rough: after)
+    x, energy = relaxation._evened(
+        isometric_energy(CORNER), before, 1.0, around, 7.0, np.ones(3, bool)
+    )
     assert (energy == 7.0) == (x is before)
     return x, x is not before
 

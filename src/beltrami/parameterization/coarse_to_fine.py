@@ -57,9 +57,9 @@ def disk_map(
     step = None
     if named and (rough or not free):
         last = settled * (mesh.n_vertices / _LARGE) ** _LOOSER
-        step = _from_coarser(mesh, weights, loop, placed, settled, last, free=free, rough=rough)
+        step = _from_coarser(mesh, weights, loop, placed, free, settled, last, rough)
     if step is None:
-        high = _BAD if free else _HIGH
+        high = _BAD if free or rough else _HIGH
         step = _as_it_is(mesh, weights, loop, placed, free=free, settled=settled, high=high)
     return step
 
@@ -103,10 +103,9 @@ def _from_coarser(
     weights: tuple[str | Weigher, ...],
     loop: Integers,
     placed: Floats,
+    free: bool,
     settled: float,
     last: float,
-    *,
-    free: bool,
     rough: bool,
 ) -> Step | None:
     """Map a coarser mesh, then this one from there; None if that is not possible.
@@ -121,7 +120,7 @@ def _from_coarser(
         return None
     given = coarse.mesh, weights, np.searchsorted(coarse.kept, loop), placed
     try:
-        found = _from_coarser(*given, settled, settled, free=free, rough=rough)
+        found = _from_coarser(*given, free, settled, settled, rough)
         if found is None:
             found = _as_it_is(*given, free=free, settled=settled, high=_BAD)
     except SingularMatrixError:  # areas of a map beyond the range of doubles

@@ -36,6 +36,7 @@ _KEPT = 3  # steps by one factor, if the boundary is held
 _FACTOR = 4.0  # what a factorisation costs, in steps without one
 _SLOWER = 0.5  # of the mean decrease for this cost: a step below it is the last by a factor
 _IDLE = 3  # short steps of a boundary that moves, after which it may get free, are forgiven
+_POOR = 4.8  # where the energy is above this: 4 for an isometry
 _SHIFT = 1e-9  # of the Hessian, over its mean diagonal: moving and turning cost nothing
 
 
@@ -102,7 +103,8 @@ def relax(
             sums = energy.sums(x)
             little = before - after < settled * before * cost / (_FACTOR + 1)
             idle = idle + 1 if little else 0
-            if idle > (_IDLE if loose and step < _SHORT else 0):
+            jammed = loose and step < _SHORT and after > _POOR
+            if idle > (_IDLE if jammed else 0):
                 break
     return (x if held is not None else x * best_scale(sums)), done
 
@@ -181,7 +183,8 @@ def _descended(
             break
         y, before, after, step = found
         if step < _SHORT:
-            y, after = _evened(model, x, y, direction, around, after)
+            rough = _rough(model.energy.mesh, x, direction)
+            y, after = _evened(model.energy, y, model.scale, around, after, rough)
         moved, x = (y - x)[free].ravel(), y
         start, cost = (start if made else before), cost + 1
         if before - after < _SLOWER * (start - after) / cost:
@@ -189,21 +192,22 @@ def _descended(
     return None if math.isinf(start) else (x, start, after, cost, step)
 
 
-def _evened(
-    model: _Model, x: Floats, y: Floats, direction: Floats, around: Stars, before: float
-) -> tuple[Floats, float]:
-    """Sweep where a step from x was in its own way; return positions, and what the energy becomes.
-
-    That is around the faces that the whole step would have left little of.
-    """
-    energy, t = model.energy, model.scale
-    faces, rough = energy.mesh.faces, np.zeros(len(x), np.bool_)
-    rough[faces[shrinking(energy.mesh, x, direction, _LEFT)]] = True
+def _rough(mesh: Mesh, x: Floats, direction: Floats) -> Booleans:
+    """Say which vertices are around faces that a whole step would leave little of."""
+    faces, rough = mesh.faces, np.zeros(mesh.n_vertices, np.bool_)
+    rough[faces[shrinking(mesh, x, direction, _LEFT)]] = True
     rough[faces[rough[faces].any(axis=1)]] = True
-    moved = around.swept(y, t, _SWEEPS, rough)
-    a, b, c = moved[faces].transpose(1, 0, 2)
-    (grown, shrunk), (grown_before, shrunk_before) = energy.sums(moved), energy.sums(y)
+    return rough
+
+
+def _evened(
+    energy: IsometricEnergy, x: Floats, t: float, around: Stars, before: float, rough: Booleans
+) -> tuple[Floats, float]:
+    """Sweep where it is rough; return the positions, and what the energy becomes."""
+    moved = around.swept(x, t, _SWEEPS, rough)
+    a, b, c = moved[energy.mesh.faces].transpose(1, 0, 2)
+    (grown, shrunk), (grown_before, shrunk_before) = energy.sums(moved), energy.sums(x)
     change = (grown - grown_before) * t**2 + (shrunk - shrunk_before) / t**2
     if not change < 0 or (orientation(a, b, c) <= 0).any():
-        return y, before
+        return x, before
     return moved, before + change
