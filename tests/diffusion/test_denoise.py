@@ -62,6 +62,13 @@ def test_the_level_of_white_noise(truth, level):
     assert not found.warnings
 
 
+def copies(one, count):
+    """Return so many copies of a mesh, apart from each other."""
+    shift = 3 * np.arange(count)[:, None, None] * [1, 0, 0]
+    faces = one.faces + one.n_vertices * np.arange(count)[:, None, None]
+    return Mesh((one.vertices + shift).reshape(-1, 3), faces.reshape(-1, 3))
+
+
 class TestNoiseLevel:
     def level(self, values, mesh=BLOB):
         return noise_level(mesh.topology.adjacency, values)
@@ -477,6 +484,33 @@ class TestScans:
         assert np.array_equal(found.mesh.vertices[2 * n], two.vertices[2 * n])
         for part in (found.mesh.vertices[:n], found.mesh.vertices[n : 2 * n] - 9):
             assert rms(truth.with_vertices(part), truth) < 0.6 * rms(one, truth)
+
+    @pytest.mark.parametrize("rings", [0, 1, 2])
+    @pytest.mark.parametrize("count", [1, 5, 60])
+    def test_many_small_shapes_do_not_shrink(self, rings, count):
+        one = shapes.icosphere(rings)
+        mesh = copies(one, count)
+        found = denoise(mesh)
+        assert found.volume_change == pytest.approx(0, abs=0.005)
+        assert rms(found.mesh, mesh) < 0.02
+        assert not any("white" in text for text in found.warnings)  # shapes are not its colour
+
+    def test_shapes_of_few_vertices_are_left_as_they_are_and_it_says_so(self):
+        sphere, cube = noisy(shapes.icosphere(3), 0.2)[0], shapes.cube()
+        n = sphere.n_vertices
+        mesh = Mesh(
+            np.concatenate([cube.vertices + 9, sphere.vertices, cube.vertices - 9]),
+            np.concatenate([cube.faces, sphere.faces + 8, cube.faces + 8 + n]),
+        )
+        found = denoise(mesh)
+        large, tiny = found.parts
+        assert large.vertices.tolist() == list(range(8, 8 + n))
+        assert (tiny.sigma, tiny.mixture, tiny.second) == (0, (), ())
+        assert np.array_equal(found.mesh.vertices[tiny.vertices], mesh.vertices[tiny.vertices])
+        assert rms(found.mesh, mesh) > 0.001
+        assert found.warnings[0].startswith("part 1, 16 vertices: components of less than 40")
+        assert denoise(cube).mesh is cube
+        assert denoise(cube, noise=0.05).sigma == 0.05  # who knows the noise is believed
 
     @pytest.mark.parametrize("faces", [1, 4])
     def test_few_faces(self, faces):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -19,10 +20,15 @@ from beltrami.diffusion.choice import (
 from beltrami.diffusion.colour import NoiseColour, noise_colour, with_colour
 from beltrami.diffusion.linear_filters import LINEAR, Linear, equal_rows
 from beltrami.diffusion.noise import STRONG, NoiseLevel, noise_level
-from beltrami.diffusion.patches import Sample, sample_of
+from beltrami.diffusion.patches import Sample, sample_of, sizes_of_components
 from beltrami.mesh.mesh import Mesh
 
 _ENOUGH = 1_500  # vertices, from which noise may be told from creases that are everywhere
+FEW = 40  # vertices of a component, below which nobody can tell noise from shape
+_TOO_FEW = (
+    f"components of less than {FEW} vertices are left as they are: nobody can tell their noise "
+    "from their shape (say with noise= how much there is)"
+)
 _SMALL = 200  # vertices below which only linear filters are trusted
 _LOOKS, _LOOKS_IF_STRONG = 1, 2  # at the normals, before the choice
 
@@ -34,18 +40,21 @@ def blind_choice(
     edge = float(mesh.edge_lengths.mean())
     bench, looks = Bench.of(mesh), _LOOKS
     found = noise_level(mesh.topology.adjacency, mesh.vertices, edge, bench.normals)
+    sizes = np.sort(sizes_of_components(mesh)[1])
+    if noise is None and sizes[-1] < FEW:
+        return replace(found, warnings=(_TOO_FEW,)), _nothing(), bench
     if found.relative > STRONG:
         bench, looks = Bench.of(mesh, EVENING_IF_STRONG), _LOOKS_IF_STRONG
         found = noise_level(mesh.topology.adjacency, mesh.vertices, edge, bench.normals)
     sample = sample_of(mesh, size)
     normals = bench.normals[sample.vertices]
-    colour = _colour(sample, normals, edge)
+    colour = _colour(sample, normals, edge) if sizes[-1] >= _ENOUGH else None
     if colour is not None:
         found = with_colour(found, colour, equal_rows(sample.mesh))
     odd = bool(found.warnings)
     sigma = noise if noise is not None else found.spread if odd else found.sigma
     if sigma == 0:
-        return found, Choice(0.0, (), np.zeros(0), np.zeros(0), 0.0), bench
+        return found, _nothing(), bench
     few = linear or mesh.n_vertices < _SMALL
     known = noise is not None or (odd and colour is None)
     alike = partial(choose, sample, known=known, evening=bench.evening, colour=colour)
@@ -58,6 +67,10 @@ def blind_choice(
             sigma = again.spread if odd else again.sigma
     filters = LINEAR if few else LOW_PASSES if odd else ALL
     return found, alike(float(sigma), normals, filters), bench
+
+
+def _nothing() -> Choice:
+    return Choice(0.0, (), np.zeros(0), np.zeros(0), 0.0)
 
 
 def _normals(mesh: Mesh, evening: Linear, choice: Choice) -> Floats:

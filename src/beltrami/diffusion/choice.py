@@ -88,7 +88,8 @@ class _Trial:
             for moved, probe in zip(there, self.probes, strict=True)
         ]
         gram = moves @ moves.T / n
-        divergence = np.mean(change, axis=0) / self.square / n
+        # no filter that takes noise away turns it over: below 0 is chance, or a probe too small
+        divergence = np.maximum(np.mean(change, axis=0) / self.square / n, 0.0)
         cautious = self.caution * sigma
         weights = best_mixture(gram, divergence, cautious)
         plain = np.zeros_like(weights)

@@ -11,7 +11,7 @@ from beltrami._arrays import Integers
 from beltrami._carded import Carded
 from beltrami._kinds import checked
 from beltrami._progress import Progress
-from beltrami.diffusion.blind import blind_choice
+from beltrami.diffusion.blind import FEW, blind_choice
 from beltrami.diffusion.candidates import SECOND
 from beltrami.diffusion.choice import ALONG_NORMALS, AS_IT_IS, Choice, apply, named
 from beltrami.diffusion.noise import NoiseLevel
@@ -40,7 +40,8 @@ class DenoisedPart:
     noise
         What was found of the noise.
     sigma
-        The level it was taken for: standard deviation along the normals, in the unit of length.
+        The level it was taken for: standard deviation along the normals, in the unit of length; 0
+        where nothing is done.
     mixture, second
         (filter, weight) of the mixture that was applied, and of the one that was applied to its
         result.
@@ -66,7 +67,8 @@ class Denoised(Carded):
     mesh
         The result; the topology is the same.
     parts
-        What was found and done in each component, the largest first; small ones are one part.
+        What was found and done in each component, the largest first; small ones are one part, and
+        those of less than 40 vertices the last one.
     noise, sigma, mixture, second
         Of the largest: see ``DenoisedPart``.
     predicted_error
@@ -189,8 +191,10 @@ def denoise(
     Filters of normals, and the second mixture, are left out where what they gain may be chance.
 
     Components of at least 1000 vertices, the eight largest, have a noise level and mixtures of
-    their own; the others are denoised as one. Borders are nothing special: displacements along the
-    normals keep them in place. Where several faces meet at an edge, all are neighbours.
+    their own; the others are denoised as one, but for those of less than 40, which stay as they are
+    unless ``noise`` is given: no estimate can tell the shape of a cube from noise. Borders are
+    nothing special: displacements along the normals keep them in place. Where several faces meet at
+    an edge, all are neighbours.
 
     References: Stein 1981; Luisier, Blu and Unser 2007; Zheng et al. 2011; Zhang et al. 2015.
 
@@ -212,7 +216,7 @@ def denoise(
         raise BeltramiError(f"the noise must be finite and >= 0, not {noise}")
     require_agreeing_normals(require_mesh(mesh, "denoise"))
     moved = np.array(mesh.vertices)
-    components = components_of(mesh, _OWN, _PARTS)
+    components = components_of(mesh, _OWN, _PARTS, FEW)
     size = max(_SAMPLE // len(components), _LEAST_SAMPLE)
     parts = []
     for i, vertices in enumerate(components):

@@ -24,11 +24,18 @@ class Sample:
     core: Booleans
 
 
-def components_of(mesh: Mesh, least: int, most: int) -> list[Integers]:
-    """Return the vertices of the largest components, and at last those of all others together.
+def sizes_of_components(mesh: Mesh) -> tuple[Integers, Integers]:
+    """Return the component of each vertex, and how many vertices each component has."""
+    labels = component_labels(mesh.edges, mesh.n_vertices)
+    return labels, np.bincount(labels)
+
+
+def components_of(mesh: Mesh, least: int, most: int, few: int = 0) -> list[Integers]:
+    """Return the vertices of the largest components, and then those of all others together.
 
     Components are ``least`` vertices large, and at most ``most`` are told apart; vertices of no
-    face are among the others. A mesh of one component is one list.
+    face are among the others. Those of less than ``few`` vertices come last, together. A mesh of
+    one component is one list.
 
     Examples
     --------
@@ -39,13 +46,13 @@ def components_of(mesh: Mesh, least: int, most: int) -> list[Integers]:
     >>> [len(part) for part in components_of(both, 100, 8)]
     [162, 42]
     """
-    labels = component_labels(mesh.edges, mesh.n_vertices)
-    sizes = np.bincount(labels)
+    labels, sizes = sizes_of_components(mesh)
     order = np.argsort(-sizes, kind="stable")[:most]
     own = order[sizes[order] >= least]
     parts = [np.flatnonzero(labels == one) for one in own]
-    others = np.flatnonzero(~np.isin(labels, own))
-    return [*parts, others] if len(others) else parts
+    others, tiny = ~np.isin(labels, own), sizes[labels] < few
+    groups = (np.flatnonzero(others & ~tiny), np.flatnonzero(others & tiny))
+    return [*parts, *(group for group in groups if len(group))]
 
 
 def part_of(mesh: Mesh, vertices: Integers) -> Mesh:
