@@ -10,7 +10,7 @@ from hypothesis.extra.numpy import arrays
 
 from beltrami.errors import DimensionError, FileFormatError, NonFiniteError, UnknownNameError
 from beltrami.io.function import MORPHOMETRY, read_function
-from beltrami.io.function_write import WRITERS, write_function
+from beltrami.io.function_write import WRITERS, write_function, write_results
 
 ONE = np.array([0.1, -2.5, 3e-7, 1e30])
 FUNCTIONS = (ONE, np.stack([ONE, 2 * ONE, -ONE], axis=1), np.array([3, 0, -1, 7]))
@@ -123,3 +123,14 @@ def test_a_name_that_tells_no_format_and_regions(tmp_path):
     place = tmp_path / "lh.aparc.annot"
     nibabel.freesurfer.write_annot(place, regions, table, ["a", "b"], fill_ctab=True)
     assert read_function(place).tolist() == regions.tolist()
+
+
+@pytest.mark.parametrize("suffix", [".npy", ".txt", ".csv"])
+def test_results_may_be_infinite_but_not_missing(tmp_path, suffix):
+    write_results(tmp_path / f"d{suffix}", [0.5, np.inf])
+    load = np.load if suffix == ".npy" else np.loadtxt
+    assert load(tmp_path / f"d{suffix}").tolist() == [0.5, np.inf]
+    with pytest.raises(NonFiniteError):
+        write_results(tmp_path / "f.npy", [np.nan])
+    with pytest.raises(NonFiniteError):
+        write_function(tmp_path / "f.npy", [0.5, np.inf])

@@ -42,10 +42,10 @@ def write_values(path: Path, mesh: Mesh, name: str, values: Floats) -> None:
 
     The suffix was checked before the work, by ``check_values_output``.
     """
-    from beltrami.io.function_write import write_function
+    from beltrami.io.function_write import write_results
     from beltrami.io.registry import write_mesh
 
     if path.suffix.lower() == ".ply":
         write_mesh(path, mesh.with_data(**{name: values}))
     else:
-        write_function(path, values)
+        write_results(path, values)

@@ -67,14 +67,26 @@ def write_function(path: str | os.PathLike[str], f: ArrayLike, *, missing: bool 
     ...     read_function(place).tolist()
     [[0.1, 2.0], [0.2, 3.0]]
     """
+    _write(path, f, missing, infinite=False)
+
+
+def write_results(path: str | os.PathLike[str], f: ArrayLike) -> None:
+    """Write as ``write_function`` does what may be infinite, as distances are between components.
+
+    ``read_function`` refuses such a file; numpy and others read it.
+    """
+    _write(path, f, missing=False, infinite=True)
+
+
+def _write(path: str | os.PathLike[str], f: ArrayLike, missing: bool, *, infinite: bool) -> None:
     suffix = suffix_of(path, None, (*TEXT, *WRITERS))
-    content = _encoded(Path(path), suffix, _writable(f, suffix, missing))
+    content = _encoded(Path(path), suffix, _writable(f, suffix, missing, infinite))
     packed = Path(path).suffix.lower() == ".gz"
     with replacing(path) as file:
         file.write(gzip.compress(content, mtime=0) if packed else content)
 
 
-def _writable(f: ArrayLike, suffix: str, missing: bool) -> Values:
+def _writable(f: ArrayLike, suffix: str, missing: bool, infinite: bool) -> Values:
     values = rectangular(f)
     if values.ndim not in (1, 2) or values.size == 0:
         raise DimensionError(
@@ -88,6 +100,8 @@ def _writable(f: ArrayLike, suffix: str, missing: bool) -> Values:
     good = ~np.isinf(values) if missing else np.isfinite(values)
     if suffix not in (".npy", *TEXT):
         good &= ~(np.abs(values) > _FLOAT32_MAX)
+    if infinite:
+        good |= np.isinf(values)
     if not good.all():
         raise NonFiniteError(
             f"the function has values not for a {suffix} file: infinite, too large or NaN",
