@@ -426,19 +426,8 @@ SURFACES = {
     "datasets.fetch": None,  # tests/datasets, with a server
     "datasets.load": None,
 }
-BLOCKS = {
-    "partition_rows": lambda s: bt.partition_rows(s.pair, 2),
-    "RowBlock": lambda s: [
-        (b.owned, b.columns, b.stiffness.data, b.mass.data) for b in bt.partition_rows(s.pair, 2)
-    ],
-    "gather_rows": lambda s: bt.gather_rows(
-        blocks := bt.partition_rows(s.pair, 2), [s.f[b.owned] for b in blocks]
-    ),
-    "write_rows": None,  # tests/batch
-    "Batch": None,
-    "run_batch": None,
-}
-ROWS = {**MESHES, **OPERATORS, **SPECTRA, **FLOWS, **BLOCKS, **GRIDS, **SURFACES}
+TABLES = (MESHES, OPERATORS, SPECTRA, FLOWS, GRIDS, SURFACES)
+ROWS = {name: call for table in TABLES for name, call in table.items()}
 CALLS = {name: call for name, call in ROWS.items() if call is not None}
 SLOW = ("plot_spectrum", "page", "Page", "run_batch", "Batch")  # called once
 OF_MESHES = {

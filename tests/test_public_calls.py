@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 import beltrami as bt
 import strategies
 from beltrami.errors import BeltramiError
-from public_calls import CALLS, OF_MESHES, ROWS, SLOW, public_names
+from public_calls import CALLS, OF_MESHES, ROWS, SLOW, TABLES, public_names
 from public_results import arrays_of, digest
 from public_scene import PAIRS, Scene
 
@@ -219,3 +219,7 @@ def test_eight_threads_with_the_same_objects_get_the_same_bits():
     for found in at_once(shared, names, 8):
         different = [name for name in names if found[name] != expected[name]]
         assert not different
+
+
+def test_no_row_hides_another():
+    assert len(ROWS) == sum(map(len, TABLES))
