@@ -82,3 +82,13 @@ def test_what_cannot_be_plotted(basis, functions, monkeypatch):
 
 def test_a_constant_is_drawn_at_the_floor(basis):
     assert plot_spectrum(basis, {"nothing": np.zeros(basis.n)}).std() > 0
+
+
+@pytest.mark.parametrize("value", [1e-3, 1000 / 3])
+@pytest.mark.parametrize("apart", [0, 1, 3])
+def test_eigenvalues_that_are_alike_but_for_rounding(value, apart):
+    mesh = bt.shapes.tetrahedron()
+    basis = bt.fourier_basis(bt.laplacian(mesh, "combinatorial", "unit"), 4)
+    alike = np.array([0, value, value, value + apart * np.spacing(value)])
+    image = plot_spectrum(dataclasses.replace(basis, eigenvalues=alike), {"f": mesh.vertices[:, 0]})
+    assert (image == (0, 114, 178)).all(axis=2).any()

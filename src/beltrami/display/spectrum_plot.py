@@ -20,6 +20,7 @@ _BANDS_PER_OCTAVE = 2  # of λ, over which the lines take root mean squares
 _SMALLEST, _LARGEST = 200, 20_000  # pixels
 _FEW = 3  # coefficients below which a mean says nothing
 _FLOOR = 1e-18  # of the largest coefficient: what is below is drawn there
+_NARROWEST = 1.01  # ratio of the last eigenvalue to the first, below which the axis is widened
 
 
 @checked
@@ -131,6 +132,10 @@ def _pixels(size: tuple[int, int]) -> tuple[int, int]:
 def _draw(eigenvalues: Floats, spectra: Mapping[str, Floats], size: tuple[int, int]) -> Image:
     plot = LinePlot(_pixels(size), "plots of spectra")
     axes = plot.axes
+    axes.set(xscale="log", yscale="log", xlabel="eigenvalue λ", ylabel="size of coefficient")
+    first, last = float(eigenvalues[0]), float(eigenvalues[-1])
+    if last < _NARROWEST * first:  # alike, but perhaps for rounding: axes need a width
+        axes.set_xlim(first / 2, last * 2)
     highest = max(float(values.max()) for values in spectra.values())
     floor = _FLOOR * (highest or 1.0)
     for i, (name, values) in enumerate(spectra.items()):
@@ -138,5 +143,4 @@ def _draw(eigenvalues: Floats, spectra: Mapping[str, Floats], size: tuple[int, i
         axes.plot(eigenvalues, np.maximum(values, floor), ".", color=color, alpha=0.3, ms=5)
         at, mean = band_means(eigenvalues, values)
         axes.plot(at, np.maximum(mean, floor), "-", color=color, lw=2, label=name)
-    axes.set(xscale="log", yscale="log", xlabel="eigenvalue λ", ylabel="size of coefficient")
     return plot.picture()
