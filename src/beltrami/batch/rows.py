@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import as_function
+from beltrami._kinds import checked
 from beltrami.io.npz import write_arrays
 from beltrami.operators.partition import RowBlock
 
@@ -18,6 +19,7 @@ ROWS: Final = "rows of a Laplacian"  # the kind, in the header of the files
 VERSION: Final = 1
 
 
+@checked
 def write_rows(
     folder: str | os.PathLike[str],
     blocks: Sequence[RowBlock],
