@@ -99,6 +99,9 @@ def assess(mesh: Mesh, uv: Floats, g: Floats | None = None) -> Step:
 def _log_stretch(mesh: Mesh, step: Step) -> Floats:
     """Return for each vertex the logarithm of the mean stretch of the inverse map around it."""
     s = step.distortion.singular_values
+    middle = np.median(s[np.isfinite(s).all(axis=1)])
+    if middle > 0:  # by a power of 2: logarithms round alike in every unit of length
+        s = np.ldexp(s, 1 - int(np.frexp(middle)[1]))
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         stretch = np.log(np.hypot(s[:, 0], s[:, 1]) / np.sqrt(2)) - np.log(s.prod(axis=1))
     known = np.isfinite(stretch)
