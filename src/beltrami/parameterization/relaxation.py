@@ -35,6 +35,7 @@ _LEFT = 0.3  # they are around faces that a whole step would leave less than thi
 _KEPT = 3  # steps by one factor, if the boundary is held
 _FACTOR = 4.0  # what a factorisation costs, in steps without one
 _SLOWER = 0.5  # of the mean decrease for this cost: a step below it is the last by a factor
+_LITTLE = 0.06  # of the energy: cheap steps, which spread rounding, follow one that gains more
 _IDLE = 3  # short steps of a boundary that moves, after which it may get free, are forgiven
 _POOR = 4.8  # where the energy is above this: 4 for an isometry
 _SHIFT = 1e-9  # of the Hessian, over its mean diagonal: moving and turning cost nothing
@@ -187,7 +188,7 @@ def _descended(
             y, after = _evened(model.energy, y, model.scale, around, after, rough)
         moved, x = (y - x)[free].ravel(), y
         start, cost = (start if made else before), cost + 1
-        if before - after < _SLOWER * (start - after) / cost:
+        if before - after < max(_SLOWER * (start - after) / cost, _LITTLE * before):
             break
     return None if math.isinf(start) else (x, start, after, cost, step)
 
