@@ -40,15 +40,15 @@ def blind_choice(
     edge = float(mesh.edge_lengths.mean())
     bench, looks = Bench.of(mesh), _LOOKS
     found = noise_level(mesh.topology.adjacency, mesh.vertices, edge, bench.normals)
-    sizes = np.sort(sizes_of_components(mesh)[1])
-    if noise is None and sizes[-1] < FEW:
+    largest = int(sizes_of_components(mesh)[1].max())
+    if noise is None and largest < FEW:
         return replace(found, warnings=(_TOO_FEW,)), _nothing(), bench
     if found.relative > STRONG:
         bench, looks = Bench.of(mesh, EVENING_IF_STRONG), _LOOKS_IF_STRONG
         found = noise_level(mesh.topology.adjacency, mesh.vertices, edge, bench.normals)
     sample = sample_of(mesh, size)
     normals = bench.normals[sample.vertices]
-    colour = _colour(sample, normals, edge) if sizes[-1] >= _ENOUGH else None
+    colour = _colour(sample, normals, edge) if largest >= _ENOUGH else None
     if colour is not None:
         found = with_colour(found, colour, equal_rows(sample.mesh))
     odd = bool(found.warnings)
