@@ -64,7 +64,7 @@ def map_chart(
         all_faces = np.ones(part.n_faces, np.bool_)
         at = np.zeros((whole.mesh.n_vertices, 2))
         found = map_component(whole, at, all_faces, wanted, known)
-        cut, uv, known = found.cut, found.uv, found.step
+        cut, uv, known = found.cut, found.uv, found.first
         made = _charts(cut, uv, faces, origin, mesh.n_faces)
         if max((_distortion(chart, mesh) for chart in made), default=0.0) > hopeless:
             continue

@@ -61,13 +61,13 @@ class Request:
 class Mapped:
     """The mesh with the seams that a component needed, positions of all, and if it was drawn.
 
-    ``step`` is the map of the component, before it was settled or drawn.
+    ``first`` is the map of the component without a seam.
     """
 
     cut: Cut
     uv: Floats
     drawn: bool
-    step: Step
+    first: Step
 
 
 def map_component(
@@ -78,7 +78,7 @@ def map_component(
     ``start`` is its map without a seam, if that is known.
     """
     part, number = part_of(current.mesh, faces)
-    best = _solved(current, part, number, asked) if start is None else start
+    first = best = _solved(current, part, number, asked) if start is None else start
     seams, tries = asked.seams if asked.cut else 0, 0
     while True:
         folded = best.flips > 0 and asked.cut and asked.rescue
@@ -102,7 +102,7 @@ def map_component(
     drawn = best.flips > 0 and asked.rescue and asked.draw
     finish = asked.method == "free" and asked.compares and not asked.rough and not best.flips
     uv[number] = _drawn(part) if drawn else settle(part, best.uv, None) if finish else best.uv
-    return Mapped(current, uv, drawn, best)
+    return Mapped(current, uv, drawn, first)
 
 
 def _solved(current: Cut, part: Mesh, number: Integers, asked: Request) -> Step:
