@@ -94,6 +94,13 @@ def test_holes_run_the_other_way():
     assert len(inverted.flipped) == 0
     assert inverted.is_bijective
     assert len(certify(topology, x / r2).flipped) == topology.n_faces
+    assert not certify(topology, x).turned_loops
+    inner = r2[:, 0] < 1.5 * r2.min()
+    twice = certify(topology, np.where(inner[:, None], x * [-1, 1], x)).turned_loops
+    assert len(twice) == 1  # both loops turn left: one too many
+    assert set(twice[0]) in ({*topology.boundary_loops[0]}, {*topology.boundary_loops[1]})
+    none = certify(mesh, mesh.vertices[:, :2] * [-1, 1]).turned_loops
+    assert [set(loop) for loop in none] == [{*mesh.boundary_loops[0]}]
 
 
 def test_one_component_inside_another():
