@@ -102,6 +102,25 @@ def best_corrections(
     if not TERMS * sigma**2 <= _COST * n * risk:
         return NONE
     unit = float(mesh.edge_lengths.mean())
+    gram, agreement = _gain(mesh, core, x, changed, sigma, unit)
+    weights = shrunk_weights(gram, agreement, sigma**2 / n)
+    size = math.sqrt(max(float(weights @ gram @ weights), 0.0))
+    gain = 2 * float(weights @ agreement) - size**2
+    if not gain > _SURE * 2 * sigma * size / math.sqrt(n):
+        return NONE
+    return Corrections(unit, weights, size)
+
+
+def _gain(
+    mesh: Mesh,
+    core: Booleans,
+    x: Floats,
+    changed: Sequence[tuple[Floats, Floats]],
+    sigma: float,
+    unit: float,
+) -> tuple[Floats, Floats]:
+    """Return G and c, the divergences measured by the changes."""
+    n = int(core.sum())
     normals = mesh.with_vertices(x).vertex_normals
     terms = np.stack([f[core] for f in _terms(mesh, x, normals, unit)])
     divergence = np.zeros(TERMS)
@@ -114,13 +133,7 @@ def best_corrections(
         divergence -= terms @ np.einsum("ij,ij->i", normals, change)[core] / square
     removed = np.einsum("ij,ij->i", mesh.vertices - x, normals)[core]
     agreement = (terms @ removed - sigma**2 * divergence / len(changed)) / n
-    gram = terms @ terms.T / n
-    weights = shrunk_weights(gram, agreement, sigma**2 / n)
-    size = math.sqrt(max(float(weights @ gram @ weights), 0.0))
-    gain = 2 * float(weights @ agreement) - size**2
-    if not gain > _SURE * 2 * sigma * size / math.sqrt(n):
-        return NONE
-    return Corrections(unit, weights, size)
+    return terms @ terms.T / n, np.asarray(agreement)
 
 
 def shrunk_weights(gram: Floats, agreement: Floats, variance: float) -> Floats:
