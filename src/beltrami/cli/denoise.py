@@ -78,6 +78,8 @@ def _report(output: Path, before: Mesh, found: Denoised) -> None:
             if mixture:
                 shares = [f"{100 * weight:.0f} % {text}" for text, weight in mixture]
                 typer.echo(f"{name}: " + "; ".join(shares))
+        if part.corrected:
+            typer.echo(f"corrected by curvature and length of edges: {part.corrected:.3g}")
     typer.echo(
         f"error expected: {found.predicted_error:.3g} ({found.predicted_error / edge:.3f} mean "
         f"edges); vertices moved by {float(np.sqrt((moved**2).mean())):.3g}"

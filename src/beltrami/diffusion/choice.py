@@ -20,6 +20,7 @@ from beltrami.diffusion.candidates import (
     filtered,
 )
 from beltrami.diffusion.colour import NoiseColour
+from beltrami.diffusion.corrections import NONE, Corrections, best_corrections
 from beltrami.diffusion.linear_filters import IN_PARTS, LINEAR, Linear
 from beltrami.diffusion.patches import Sample
 from beltrami.diffusion.risk import best_mixture, mixture_risk
@@ -49,7 +50,8 @@ class Choice:
 
     ``second`` has two weights more than ``SECOND``, for the result as it is, and with only what is
     along the normals of its displacements. The risk is the estimated mean square error, for noise
-    of the level sigma.
+    of the level sigma, before the corrections: what they gain is left to make up for the choice,
+    which was made on the same noise.
     """
 
     sigma: float
@@ -57,6 +59,7 @@ class Choice:
     first: Floats
     second: Floats
     risk: float
+    corrections: Corrections = NONE
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,9 +148,9 @@ def choose(
     evening: Linear = EVENING,
     colour: NoiseColour | None = None,
 ) -> Choice:
-    """Choose both mixtures for noise of the level σ along ``normals``, on a sample.
+    """Choose mixtures and corrections for noise of the level σ along ``normals``, on a sample.
 
-    Of ``filters``, the first ones are ``LINEAR``; there is no second mixture unless they are
+    Of ``filters``, the first ones are ``LINEAR``; there is only the first mixture unless they are
     ``ALL``. If σ is not ``known``, a better one may be found. Mixtures are chosen as if σ were
     ``caution`` times as large, and more where there is little but noise to fit; filters look at the
     mesh after ``evening``. Noise of a ``colour`` is probed by noise of the same: Stein's estimate
@@ -179,7 +182,10 @@ def choose(
     ]
     trial = replace(trial, caution=max(caution, CAUTION_ON_SMOOTH))
     second, risk = trial.mixture(here, there, sigma, 1, _SURE_OF_MORE)
-    return Choice(sigma, filters, first, second, risk)
+    moved = [(probe, _mixed(second, x)) for probe, x in zip(probes, there, strict=True)]
+    done = _mixed(second, here)
+    corrections = best_corrections(mesh, sample.core, done, moved, sigma, risk)
+    return Choice(sigma, filters, first, second, risk, corrections)
 
 
 def _directions(bench: Bench, colour: NoiseColour | None) -> Floats:
@@ -212,7 +218,7 @@ def apply(mesh: Mesh, bench: Bench, choice: Choice) -> Floats:
         moved.insert(0, along_normals(mesh, x))
     if AS_IT_IS in seconds:
         moved.insert(0, x)
-    return _mixed(weights, moved)
+    return choice.corrections.of(mesh, _mixed(weights, moved))
 
 
 def _mixed(weights: Floats, positions: list[Floats]) -> Floats:
