@@ -14,6 +14,7 @@ from beltrami._progress import Progress
 from beltrami.diffusion.blind import FEW, blind_choice
 from beltrami.diffusion.candidates import SECOND
 from beltrami.diffusion.choice import ALONG_NORMALS, AS_IT_IS, Choice, apply, named
+from beltrami.diffusion.fairing import faired
 from beltrami.diffusion.noise import NoiseLevel
 from beltrami.diffusion.patches import components_of, part_of
 from beltrami.diffusion.vertex_update import require_agreeing_normals
@@ -156,7 +157,8 @@ def denoise(
     is left goes, by weights that depend on the curvature and on the length of the edges
     (``beltrami.diffusion.corrections``). The displacements of low passes
     are along the normals, so that little shrinks or slides; the estimate counts what the other
-    filters move sideways as error.
+    filters move sideways as error. Last, faces that are small beside the error that is left are
+    faired, sideways too: it would spoil their normals.
 
     Chapter items: P15, P42, P43, P45.
 
@@ -239,7 +241,8 @@ def denoise(
             found, choice, bench = blind_choice(part, noise, size, linear=method == "linear")
             if progress is not None:
                 progress(2 * i + 1, 2 * len(components))
-            moved[vertices] = apply(part, bench, choice)
+            clean = part.with_vertices(apply(part, bench, choice))
+            moved[vertices] = faired(clean, math.sqrt(choice.risk))
             parts.append(_told(vertices, found, choice))
         if progress is not None:
             progress(2 * i + 2, 2 * len(components))
