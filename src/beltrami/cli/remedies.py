@@ -5,6 +5,8 @@ from __future__ import annotations
 import inspect
 import re
 
+_BASIS = "--basis with modes of `beltrami spectrum` if the kernel"
+
 
 def as_commands(text: str) -> str:
     """Turn calls and keywords in a message into the commands and options that do the same.
@@ -30,6 +32,8 @@ def as_commands(text: str) -> str:
     text = re.sub(r'laplacian\(mesh, "(\w+)"\) or "(\w+)"', r"--weights \1 or \2", text)
     text = re.sub(r'\b(method|weights|mass|boundary)="(\w+)"', r"--\1 \2", text)
     text = re.sub(r"\bbulge=([\d.]+\d)", r"--bulge \1", text)
+    text = text.replace("fourier_basis(laplacian, k).filter(f, h) if h", _BASIS)
+    text = text.replace("; or give the order, and nothing is promised", "")
     text = text.replace("with cut=True", "by leaving out --no-cut")
     text = text.replace("strict=False returns", "--allow-folds writes")
     return text.replace("heat()", "--method implicit")
