@@ -17,6 +17,8 @@ def as_commands(text: str) -> str:
     'Drop them with `beltrami repair --remove-unreferenced`.'
     >>> as_commands("repair: split_non_manifold cuts there; remove_duplicate_faces first.")
     '`beltrami repair --split-non-manifold` cuts there; --remove-duplicate-faces first.'
+    >>> as_commands("repair: orient turns faces until neighbours agree.")
+    '`beltrami repair --orient` turns faces until neighbours agree.'
     >>> as_commands('Use laplacian(mesh, "combinatorial") or "distance", or heat(), not this.')
     'Use --weights combinatorial or distance, or --method implicit, not this.'
     >>> as_commands('Or use method="heat".')
@@ -27,7 +29,7 @@ def as_commands(text: str) -> str:
     '--allow-folds writes the map as it is.'
     """
     text = re.sub(r"repair\(mesh, ([^)]*)\)", _call, text)
-    text = re.sub(rf"\brepair: ({_repairs()})\b", _command, text)
+    text = re.sub(rf"\brepair: (orient|{_repairs()})\b", _command, text)
     text = re.sub(rf"\b({_repairs()})(=True)?\b(?!\s*=)", lambda found: _option(found[1]), text)
     text = re.sub(r'laplacian\(mesh, "(\w+)"\) or "(\w+)"', r"--weights \1 or \2", text)
     text = re.sub(r'\b(method|weights|mass|boundary)="(\w+)"', r"--\1 \2", text)
