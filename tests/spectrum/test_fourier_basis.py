@@ -294,6 +294,19 @@ def test_rounding_makes_no_eigenvalue_of_needles_negative(kind, flat, tmp_path):
         assert bt.load_basis(tmp_path / "basis.npz", pair).k == 6
 
 
+def test_weights_of_many_sizes(tmp_path):
+    """Of the small ones rounding leaves nothing, or less: that is zero, and can be saved."""
+    w = np.r_[1e18, 1, 1e-18, 1e-40, 1e18, np.ones(15)]
+    chain = csr_array(diags_array([w], offsets=[1], shape=(21, 21)))
+    pair = bt.laplacian(csr_array(chain + chain.T), mass="unit")
+    for k in (1, 6, 21):
+        basis = bt.fourier_basis(pair, k)
+        assert (basis.eigenvalues >= 0).all()
+        assert np.isfinite(basis.residuals).all()
+        basis.save(tmp_path / "basis.npz")
+        assert bt.load_basis(tmp_path / "basis.npz", pair).k == k
+
+
 def test_negative_eigenvalues_of_weights_of_yours_stay():
     W = csr_array(np.array([[0, -1.0, 2], [-1, 0, 0], [2, 0, 0]]))
     pair = bt.laplacian(W, mass="unit")

@@ -20,7 +20,7 @@ from beltrami.operators.pair import Laplacian
 from beltrami.solvers.eigenpairs import Eigenpairs, eigenpairs
 from beltrami.spectrum.basis import FourierBasis
 
-_ROUNDING = 1e-11  # of Lφ beside |L||φ|
+_ROUNDING = 1e-11  # of an eigenvalue, beside the largest of L_ii / B_ii
 
 
 @checked
@@ -116,7 +116,7 @@ def fourier_basis(
         coordinates=_positions(laplacian, free), certify=certify, seed=seed,
     )  # fmt: skip
     if (found.values < 0).any() and laplacian.properties.positive_semidefinite:
-        found = _not_negative(found, L)
+        found = _not_negative(found, L, B)
     return FourierBasis(
         found.values,
         _everywhere(found, free),
@@ -140,17 +140,17 @@ def _checked(k: SupportsIndex, near: float, tol: float, most: int) -> int:
     return count
 
 
-def _not_negative(found: Eigenpairs, L: csr_array) -> Eigenpairs:
+def _not_negative(found: Eigenpairs, L: csr_array, B: csr_array) -> Eigenpairs:
     """Make eigenvalues zero that rounding left below it: a needle has far larger ones beside them.
 
     They come behind the kernel that is known, and their residuals are those of a kernel.
     """
+    scale = float((L.diagonal() / B.diagonal()).max())
+    below = (found.values < 0) & (found.values > -_ROUNDING * scale)
     image = np.linalg.norm(L @ found.vectors, axis=0)
     size = np.linalg.norm(abs(L) @ np.abs(found.vectors), axis=0)
-    part = image / np.where(size > 0, size, 1.0)
-    below = (found.values < 0) & (part < _ROUNDING)
     values = np.where(below, 0.0, found.values)
-    residuals = np.where(below, part, found.residuals)
+    residuals = np.where(below, image / np.where(size > 0, size, 1.0), found.residuals)
     order = np.lexsort((below, values))
     vectors = np.ascontiguousarray(found.vectors[:, order])
     return replace(found, values=values[order], vectors=vectors, residuals=residuals[order])
