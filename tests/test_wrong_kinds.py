@@ -16,7 +16,7 @@ from public_calls import CALLS, SLOW
 from public_scene import Scene
 from recorded_calls import recording
 
-CALLED = ("weights", "kind", "h", "f", "preconditioner", "progress")  # may be functions
+CALLED = ("weights", "kind", "h", "f", "preconditioner", "progress", "watch")  # may be functions
 
 
 def sound():

@@ -242,11 +242,11 @@ class UnknownNameError(BeltramiError, ValueError):
     """A name of a method or kind that does not exist; ``choices`` lists those that do."""
 
     def __init__(self, what: str, name: object, choices: Iterable[str]) -> None:
-        self.name = name
-        self.choices = tuple(choices)
-        near = nearest(str(name), self.choices)
+        self.name, self.choices = name, tuple(choices)
+        near = nearest("" if name is None else str(name), self.choices)
         listed = ", ".join(map(repr, self.choices)) + (f". Did you mean {near!r}?" if near else ".")
-        super().__init__(f"unknown {what} {shown(name)}: choose one of {listed}")
+        wrong = f"no {what} was named" if name is None else f"unknown {what} {shown(name)}"
+        super().__init__(f"{wrong}: choose one of {listed}")
 
 
 class FileFormatError(BeltramiError, ValueError):

@@ -47,6 +47,25 @@ def test_a_relative_error_is_a_part_of_the_diagonal(beltrami, sphere, tmp_path):
     assert facts["original_size"] == sphere.stat().st_size
 
 
+def test_exact_functions_and_texture_coordinates_say_what_they_cost(beltrami, tmp_path):
+    mesh, rng = bt.shapes.icosphere(2), np.random.default_rng(0)
+    small, bound = tmp_path / "a.btm", ("--max-error", 0.01)
+    bt.write_mesh(tmp_path / "uv.obj", mesh, uv=rng.random((mesh.n_vertices, 2)))
+    bt.write_mesh(tmp_path / "f.ply", mesh.with_data(f=rng.random(mesh.n_vertices)))
+    for name, what, option in (
+        ("uv.obj", "texture coordinates", ("--uv-error", 0.1)),
+        ("f.ply", "functions", ("--function-error", "f=0.1")),
+    ):
+        words = ("compress", tmp_path / name, "-o", small, *bound)
+        told = beltrami(*words).stdout
+        large = small.stat().st_size
+        assert f"of it are {what}, exactly: {option[0]} " in told
+        assert "exactly" not in beltrami(*words, *option).stdout
+        assert small.stat().st_size < large / 2
+    bt.write_mesh(tmp_path / "m.ply", mesh)
+    assert "exactly" not in beltrami("compress", tmp_path / "m.ply", "-o", small, *bound).stdout
+
+
 def test_a_spectral_file_and_its_beginning(beltrami, sphere, tmp_path):
     small, part, back = tmp_path / "a.btm", tmp_path / "part.btm", tmp_path / "b.ply"
     done = beltrami("compress", sphere, "-o", small, "--mode", "spectral", "--terms", 30)

@@ -91,3 +91,38 @@ def test_a_bad_output_is_told_before_the_work(beltrami, sphere, data, tmp_path):
     done = beltrami(*arguments, "--data", data, "-o", tmp_path / "g.obj")
     assert done.exit_code == 1
     assert "format for values" in done.stderr
+
+
+def test_by_modes_of_a_file(beltrami, sphere, data, tmp_path):
+    """A polynomial cannot cut low on a fine mesh, whose largest eigenvalues are far away."""
+    modes, output = tmp_path / "modes.npz", tmp_path / "g.npy"
+    assert beltrami("spectrum", sphere, "-k", 60, "-o", modes).exit_code == 0
+    cut = ("filter", sphere, "--data", data, "--kernel", "lowpass", "-o", output, "--basis", modes)
+    done = beltrami(*cut, "--cutoff", 20)
+    assert done.exit_code == 0, done.stderr
+    pair = laplacian(read_mesh(sphere))
+    every = bt.fourier_basis(pair, pair.n)
+    exact = every.filter(np.load(data), LowPass(20, 10))
+    np.testing.assert_allclose(np.load(output), exact, atol=1e-5)
+    output.unlink()
+    beyond = beltrami(*cut, "--cutoff", 60)
+    assert beyond.exit_code == 1
+    assert "of the 60 modes" in beyond.stderr
+    assert "Take more modes" in beyond.stderr
+    assert beltrami(*cut, "--cutoff", 20, "--method", "lanczos").exit_code == 2
+    beltrami("spectrum", sphere, "-k", 9, "--near", 12, "-o", modes)
+    elsewhere = beltrami(*cut, "--cutoff", 20)
+    assert elsewhere.exit_code == 1
+    assert "a filter needs all from 0" in elsewhere.stderr
+    assert not output.exists()
+
+
+def test_all_modes_of_a_file_will_do_for_any_kernel(beltrami, sphere, data, tmp_path):
+    modes, output = tmp_path / "modes.npz", tmp_path / "g.npy"
+    pair = laplacian(read_mesh(sphere))
+    bt.fourier_basis(pair, pair.n).save(modes)
+    options = ("--kernel", "highpass", "--cutoff", 20, "--basis", modes)
+    done = beltrami("filter", sphere, "--data", data, *options, "-o", output)
+    assert done.exit_code == 0, done.stderr
+    expected = filter_function(pair, np.load(data), HighPass(20, 10), "exact")
+    np.testing.assert_allclose(np.load(output), expected, atol=1e-6)

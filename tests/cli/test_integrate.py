@@ -3,7 +3,7 @@ import json
 import numpy as np
 import pytest
 
-from beltrami.io.registry import read_mesh
+from beltrami.io.registry import read_mesh, write_mesh
 from beltrami.operators.integrals import integrate
 
 
@@ -32,3 +32,14 @@ def test_a_wrong_name(beltrami, sphere):
     done = beltrami("integrate", sphere, "--how", "edges")
     assert done.exit_code == 1
     assert "Did you mean 'edge'?" in done.stderr
+
+
+def test_a_file_with_several_functions(beltrami, sphere, tmp_path):
+    mesh = read_mesh(sphere)
+    f = mesh.vertices[:, 0]
+    write_mesh(tmp_path / "two.ply", mesh.with_data(f=f, g=f))
+    words = ("integrate", sphere, "--data", tmp_path / "two.ply")
+    done = beltrami(*words)
+    assert done.exit_code == 1
+    assert "has several functions ('f', 'g'): choose one with --data-name" in done.stderr
+    assert beltrami(*words, "--data-name", "g").exit_code == 0

@@ -76,3 +76,11 @@ def test_negative_weights_name_the_option(beltrami, tmp_path):
     done = beltrami("smooth", path, "-o", tmp_path / "out.off", "--weights", "cotangent")
     assert done.exit_code == 1
     assert "Use --weights combinatorial or distance" in done.stderr
+
+
+def test_an_open_surface_has_no_volume_to_keep(beltrami, tmp_path):
+    path = tmp_path / "flat.off"
+    path.write_text("OFF\n4 2 0\n0 0 0\n4 0 0\n2 .3 0\n2 -.3 0\n3 0 1 2\n3 1 0 3\n")
+    done = beltrami("smooth", path, "-o", tmp_path / "out.off", "--keep", "volume")
+    assert done.exit_code == 1
+    assert "Take --keep centroid, or --hold-boundary, which" in done.stderr

@@ -121,3 +121,13 @@ def test_a_mistake_leaves_no_folder(beltrami, sphere, tmp_path):
     done = beltrami("wave", sphere, "--time", 1, "--bump", 1, "-o", tmp_path / "w.mp4")
     assert done.exit_code == 1
     assert "'.gif'" in done.stderr
+
+
+def test_a_velocity_of_several_functions(beltrami, tmp_path):
+    mesh = grid(6, 5)
+    f, g = mesh.vertices[:, :2].T ** 2
+    write_mesh(tmp_path / "g.ply", mesh.with_data(f=f, g=g))
+    arguments = ("--bump", 3, "--velocity", tmp_path / "g.ply", "--time", 1)
+    done = beltrami("wave", tmp_path / "g.ply", *arguments, "-o", tmp_path / "w.npy")
+    assert done.exit_code == 1
+    assert "has several functions ('f', 'g'): a file with one is needed" in done.stderr

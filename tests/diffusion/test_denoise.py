@@ -24,10 +24,12 @@ from beltrami.errors import (
     EmptyMeshError,
     MeshError,
     NonFiniteError,
+    NotOrientableError,
     UnknownNameError,
 )
 from beltrami.mesh import shapes
 from beltrami.mesh.mesh import Mesh
+from strategies import moebius
 
 
 def noisy(truth, level, seed=0):
@@ -566,3 +568,12 @@ def test_noise_that_is_larger_than_the_mesh_is_a_number_too(noise):
     assert np.isfinite(found.mesh.vertices).all()
     weights = best_mixture(np.diag([0.0, 1e-24]), np.array([1.0, 0.5]), noise)
     assert weights == pytest.approx([0, 1])  # the one that keeps less of the noise
+
+
+def test_a_surface_with_one_side_is_told_what_will_do():
+    """No repair turns its faces; averages need no normals."""
+    strip = Mesh(*moebius(np.random.default_rng(5), 9))
+    with pytest.raises(NotOrientableError, match=r"one side.*\"averaging\"") as caught:
+        denoise(strip)
+    assert "repair(" not in str(caught.value)
+    smooth_mesh(strip, "averaging")

@@ -112,7 +112,7 @@ def _centroid(mesh):
 def test_keep_the_centroid_of_an_open_mesh():
     mesh = MESHES["cur"]()
     assert np.allclose(_centroid(smooth_mesh(mesh, keep="centroid")), _centroid(mesh), atol=1e-12)
-    with pytest.raises(NotClosedError):
+    with pytest.raises(NotClosedError, match=r"keep=\"centroid\", or hold_boundary=True"):
         smooth_mesh(mesh, keep="volume")
 
 

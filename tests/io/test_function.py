@@ -70,7 +70,7 @@ def test_vertex_data(tmp_path):
     with pytest.raises(UnknownNameError, match="'quality'"):
         read_function(tmp_path / "a.ply", name="quantity")
     write_mesh(tmp_path / "b.ply", Mesh(np.eye(3), [[0, 1, 2]], {"a": quality, "b": quality}))
-    with pytest.raises(UnknownNameError, match="'a', 'b'"):
+    with pytest.raises(UnknownNameError, match="no vertex data was named: choose one of 'a', 'b'"):
         read_function(tmp_path / "b.ply")
 
 

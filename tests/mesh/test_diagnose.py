@@ -146,6 +146,9 @@ def test_a_moebius_strip():
     assert (found.is_orientable, found.genus, found.n_boundary_loops) == (False, None, 1)
     assert len(found.inconsistent_edges) > 0
     assert "not orientable" in found.report()
+    assert found.defects[-1].name == "inconsistently oriented edges"
+    assert "with one side" in found.defects[-1].remedy
+    assert "1 kind of defect:" in found.report()
 
 
 @pytest.mark.parametrize("d", [2, 4])

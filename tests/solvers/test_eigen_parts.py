@@ -324,3 +324,17 @@ def test_rows_are_padded_to_whole_vectors(dtype, c):
     assert (wide[:, :c] == 1).all()
     assert (wide[:, c:] == 0).all()
     assert (wide is Z) == (wide.shape == Z.shape)
+
+
+def test_the_residual_of_an_eigenvalue_without_digits_is_a_number():
+    """Rounding may leave 0 of it; beside 0 every residual would be infinite."""
+    pair = bt.laplacian(bt.shapes.icosphere(1), mass="unit")
+    pencil = make_pencil(1e9 * pair.stiffness, pair.mass, 3, None)
+    X = np.random.default_rng(0).normal(size=(pair.n, 3))
+    with np.errstate(all="raise"):
+        found = residuals(pencil, X, slice(0, 3), np.array([0.0, -1e-300, 1.0]), np.float64)
+    assert (found.norms[:2] > 1e20).all()
+    assert np.isfinite(found.norms).all()
+    assert (found.norms[:2] > found.rounding[:2]).all()  # these are no eigenvectors
+    far = residuals(pencil, 1e9 * X, slice(0, 3), np.array([0.0, -1e-300, 1.0]), np.float64)
+    assert np.allclose(far.norms, found.norms)

@@ -272,6 +272,50 @@ def test_slivers_are_solved_as_well_as_rounding_lets():
     assert_right(basis, pair, dense(pair, 20), 1e-3, 1e-6)
 
 
+@pytest.mark.parametrize("kind", ["cotangent-voronoi", "cotangent-consistent", "distance-degree"])
+@pytest.mark.parametrize("flat", [1e-8, 1e-9, 1e-10, 1e-11])
+def test_rounding_makes_no_eigenvalue_of_needles_negative(kind, flat, tmp_path):
+    """LAPACK finds -1e5 beside 1e18, and exp(-λ) would be infinite."""
+    disk = bt.shapes.disk(3)
+    weights, mass = kind.split("-")
+    for seed in range(4):
+        moved = np.random.default_rng(seed).normal(0, 0.05, disk.vertices.shape)
+        mesh = bt.Mesh((disk.vertices + moved) * [1, flat], disk.faces)
+        pair = bt.laplacian(mesh, weights, mass=mass)
+        basis = bt.fourier_basis(pair, 6)
+        assert basis.eigenvalues[0] == 0
+        assert (np.diff(basis.eigenvalues) >= 0).all()
+        assert np.ptp(basis.eigenvectors[:, 0]) == 0
+        assert basis.orthogonality < 1e-6
+        assert (bt.kernels.Heat(1)(basis.eigenvalues) <= 1).all()
+        zero = basis.eigenvalues == 0
+        assert (basis.residuals[zero] < 1e-12).all()
+        basis.save(tmp_path / "basis.npz")
+        assert bt.load_basis(tmp_path / "basis.npz", pair).k == 6
+
+
+def test_weights_of_many_sizes(tmp_path):
+    """Of the small ones rounding leaves nothing, or less: that is zero, and can be saved."""
+    w = np.r_[1e18, 1, 1e-18, 1e-40, 1e18, np.ones(15)]
+    chain = csr_array(diags_array([w], offsets=[1], shape=(21, 21)))
+    pair = bt.laplacian(csr_array(chain + chain.T), mass="unit")
+    for k in (1, 6, 21):
+        basis = bt.fourier_basis(pair, k)
+        assert (basis.eigenvalues >= 0).all()
+        assert np.isfinite(basis.residuals).all()
+        basis.save(tmp_path / "basis.npz")
+        assert bt.load_basis(tmp_path / "basis.npz", pair).k == k
+
+
+def test_negative_eigenvalues_of_weights_of_yours_stay():
+    W = csr_array(np.array([[0, -1.0, 2], [-1, 0, 0], [2, 0, 0]]))
+    pair = bt.laplacian(W, mass="unit")
+    expected = np.linalg.eigvalsh(pair.stiffness.toarray())
+    found = bt.fourier_basis(pair, 3).eigenvalues
+    assert expected[0] < -0.5
+    assert np.allclose(found, expected)
+
+
 def test_the_same_bits_again_and_another_seed():
     pair = bt.laplacian(blob())
     first, second = (bt.fourier_basis(pair, 15, seed=5) for _ in range(2))

@@ -115,6 +115,14 @@ def compress(
         f"wrote {output}: {len(data)} bytes, {rate:.2f} bits per vertex, "
         f"error at most {contents.max_error:.3g}"
     )
+    kept = {"texture coordinates": uv_error is None, "functions": not function_error}
+    for what, option in (
+        ("texture coordinates", "--uv-error ERROR"),
+        ("functions", "--function-error NAME=ERROR"),
+    ):
+        part = sum(size for name, size in contents.sections if name.endswith(what))
+        if kept[what] and 2 * part > contents.size:
+            typer.echo(f"{part} bytes of it are {what}, exactly: {option} makes them smaller")
 
 
 def _errors(options: list[str]) -> dict[str, float]:

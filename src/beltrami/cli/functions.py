@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,12 +12,34 @@ if TYPE_CHECKING:
     from beltrami.mesh.mesh import Mesh
 
 
-def read_data(path: Path, mesh: Mesh, name: str | None = None) -> Floats:
-    """Read a function from a file, by its name if the file has several; check it."""
+def read_data(
+    path: Path, mesh: Mesh, name: str | None = None, option: str = "--data-name"
+) -> Floats:
+    """Read a function from a file, by its name if the file has several; check it.
+
+    ``option`` is the one that gives the name, "" if there is none.
+    """
     from beltrami._arrays import as_function
     from beltrami.io.function import read_function
 
-    return as_function(read_function(path, name), mesh.n_vertices, f"the function of {path}")
+    with _a_name_is_asked_for(path, option):
+        values = read_function(path, name)
+    return as_function(values, mesh.n_vertices, f"the function of {path}")
+
+
+@contextmanager
+def _a_name_is_asked_for(path: Path, option: str) -> Iterator[None]:
+    """Say by which option one of several functions is chosen."""
+    from beltrami.errors import BeltramiError, UnknownNameError
+
+    try:
+        yield
+    except UnknownNameError as error:
+        if error.name is not None:
+            raise
+        names = ", ".join(map(repr, error.choices))
+        wanted = f"choose one with {option}" if option else "a file with one is needed"
+        raise BeltramiError(f"{path} has several functions ({names}): {wanted}") from error
 
 
 def read_drawn(path: Path, mesh: Mesh, name: str | None = None, missing: bool = False) -> Floats:
@@ -29,7 +53,8 @@ def read_drawn(path: Path, mesh: Mesh, name: str | None = None, missing: bool = 
     from beltrami.display.values import as_values
     from beltrami.io.function import read_values
 
-    held = read_values(path, name, missing=missing)
+    with _a_name_is_asked_for(path, "--data-name"):
+        held = read_values(path, name, missing=missing)
     shown = held[:, :3] if held.ndim == 2 and held.shape[1] == 4 else held
     kept = np.uint8 if held.dtype == np.uint8 else np.float64
     as_function(np.where(np.isnan(held), 0, held), mesh.n_vertices, f"the function of {path}")

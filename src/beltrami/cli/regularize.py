@@ -42,7 +42,7 @@ def regularize(
     with waiting(f"reading {mesh.name}"):
         read = read_mesh(mesh)
         values = read_data(data, read, data_name)
-        soft = None if measured is None else read_data(measured, read)
+        soft = None if measured is None else read_data(measured, read, option="")
     held = read.topology.on_boundary if hold_boundary else ()
     with waiting("solving"):
         pair = laplacian(read, weights, mass)

@@ -83,7 +83,7 @@ def wave(
     suffix = check_frames_output(output)
     with waiting(f"reading {mesh.name}"):
         read = read_mesh(mesh)
-        speed = None if velocity is None else read_data(velocity, read)
+        speed = None if velocity is None else read_data(velocity, read, option="")
         if data is not None:
             start = read_data(data, read, data_name)
         else:

@@ -182,7 +182,7 @@ def denoise(
     ------
     DimensionError, EmptyMeshError, NonFiniteError, DegenerateFaceError
         If the mesh is not in space, has no faces, or a coordinate or face is not valid.
-    MeshError
+    NotOrientableError
         If faces that share an edge disagree about the outside.
     BeltramiError
         If ``noise`` is negative.

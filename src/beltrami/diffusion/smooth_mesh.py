@@ -10,7 +10,7 @@ from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.diffusion.held import held_vertices, require_free
 from beltrami.diffusion.smoothing_methods import SMOOTHING_METHODS
-from beltrami.errors import BeltramiError, check_name
+from beltrami.errors import BeltramiError, NotClosedError, check_name
 from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
 
@@ -135,6 +135,12 @@ def smooth_mesh(
         check_name("quantity to keep", keep, KEPT)
         if held.any():
             raise BeltramiError(f"keeping the {keep} would move the vertices that are held")
+    if keep == "volume" and not mesh.is_closed:
+        raise NotClosedError(
+            "the surface has a boundary, so there is no volume to keep",
+            edges=mesh.topology.boundary_edges,
+            remedy='Take keep="centroid", or hold_boundary=True, which leaves the border in place.',
+        )
     before = mesh.volume if keep == "volume" else None
     moved = mesh.with_vertices(chosen.run(mesh, held, progress, **options))
     if keep is None:

@@ -8,8 +8,9 @@ import numpy as np
 
 from beltrami._arrays import Booleans, Floats
 from beltrami._jit import kernel
-from beltrami.errors import DimensionError, MeshError
+from beltrami.errors import DimensionError
 from beltrami.mesh.mesh import Mesh
+from beltrami.mesh.requirements import require_oriented
 from beltrami.mesh.topology import Topology
 from beltrami.operators.soundness import require_faces, require_positions
 
@@ -54,7 +55,7 @@ def require_agreeing_normals(mesh: Mesh) -> None:
     ------
     DimensionError
         If the mesh is not in space.
-    MeshError
+    NotOrientableError
         If faces that share an edge disagree about the outside.
     EmptyMeshError, DegenerateFaceError, NonFiniteError
         If there are no faces, one names a vertex twice, or a coordinate is not finite.
@@ -65,14 +66,12 @@ def require_agreeing_normals(mesh: Mesh) -> None:
         raise DimensionError(
             f"normals need a mesh in space, and this one has dimension {mesh.dimension}"
         )
-    turned = mesh.topology.inconsistent_edges
-    if len(turned):
-        raise MeshError(
-            "faces that share an edge disagree about the outside, so their normals cannot be "
-            "compared",
-            edges=turned,
-            remedy="Turn them with repair(mesh, orient=True).",
-        )
+    require_oriented(
+        mesh.topology,
+        "faces that share an edge disagree about the outside, so their normals cannot be compared",
+        one_sided="The surface has one side, so no repair gives it a normal: smooth_mesh with "
+        '"averaging", "taubin" or "implicit" needs none.',
+    )
 
 
 @kernel

@@ -17,8 +17,9 @@ from beltrami.errors import FileFormatError, MeshError, MissingExtraError
 from beltrami.io.faces import fan, first_outside
 from beltrami.io.gltf import read_scene
 from beltrami.io.packed_inside import require_room
-from beltrami.io.source import plain_file
+from beltrami.io.source import Source, plain_file
 from beltrami.io.unpacking import Room, room_of
+from beltrami.io.vtk_polydata import is_polydata, read_polydata
 from beltrami.mesh.mesh import Mesh
 
 _MESHIO = (".vtk", ".vtu", ".msh", ".mesh", ".inp")
@@ -49,7 +50,7 @@ def read(path: str | os.PathLike[str], suffix: str, max_bytes: int | None = None
         except MissingExtraError:
             raise
         except FileFormatError as error:  # of a copy, perhaps
-            raise FileFormatError(place, error.problem) from error
+            raise FileFormatError(place, error.problem, line=error.line, byte=error.byte) from error
         except (Exception, SystemExit) as cause:  # the packages raise anything on a broken file
             reason = f"{type(cause).__name__}: {cause}"
             raise FileFormatError(place, f"expected a {suffix} file ({reason})") from cause
@@ -84,6 +85,15 @@ def _read_gifti(place: Path, room: Room) -> Any:
 def _read_freesurfer(place: Path, _room: Room) -> Any:
     freesurfer = require("nibabel.freesurfer", "io", "reading FreeSurfer surfaces")
     return (*freesurfer.read_geometry(place), {})
+
+
+def _read_vtk(place: Path, room: Room) -> Any:
+    source = Source(place)
+    if not is_polydata(source):
+        return _read_meshio(place, room)
+    found = read_polydata(source)
+    data = found.data if found.uv is None else {**found.data, _UV: found.uv}
+    return found.points, found.faces, data
 
 
 def _read_meshio(place: Path, room: Room) -> Any:
@@ -179,6 +189,7 @@ READERS: dict[str, Callable[[Path, Room], Any]] = {
     ".gii": _read_gifti,
     **dict.fromkeys(_FREESURFER, _read_freesurfer),
     **dict.fromkeys(_MESHIO, _read_meshio),
+    ".vtk": _read_vtk,
     **dict.fromkeys(_GLTF, _read_gltf),
 }
 WRITERS: dict[str, Callable[[Mesh, Floats, str], bytes]] = {

@@ -61,10 +61,11 @@ def read_mesh(
 ) -> Mesh:
     r"""Read a triangle mesh from a file.
 
-    OBJ, OFF, PLY and STL are read here, checked byte by byte; the extra ``io`` adds GIFTI,
-    FreeSurfer, glTF, VTK and others. Any of them may be compressed, as in ``mesh.obj.gz``.
-    Polygons are cut into triangles from their first corner. The vertices stay in the order of
-    the file, and nothing is merged, except in STL, where exactly equal corners are one vertex.
+    OBJ, OFF, PLY, STL and VTK's legacy surfaces are read here, checked byte by byte; the extra
+    ``io`` adds GIFTI, FreeSurfer, glTF, other VTK files and more. Any of them may be compressed,
+    as in ``mesh.obj.gz``. Polygons are cut into triangles from their first corner. The vertices
+    stay in the order of the file, and nothing is merged, except in STL, where exactly equal
+    corners are one vertex.
 
     Parameters
     ----------

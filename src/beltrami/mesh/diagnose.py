@@ -77,7 +77,11 @@ class Diagnosis(Carded):
     @property
     def defects(self) -> tuple[Defect, ...]:
         """The defects found, the worst first, each with its remedy."""
-        found = (Defect(name, kind, getattr(self, key), cure) for key, name, kind, cure in _CURES)
+        cures = {"inconsistent_edges": _ONE_SIDED} if not self.is_orientable else {}
+        found = (
+            Defect(name, kind, getattr(self, key), cures.get(key, cure))
+            for key, name, kind, cure in _CURES
+        )
         return tuple(defect for defect in found if defect.count)
 
     @property
@@ -118,10 +122,11 @@ class Diagnosis(Carded):
             f"area {self.area:.6g}{inside}",
             "no defects"
             if self.is_clean
-            else f"{_counted(len(self.defects), 'kind', 'kinds')} of defects:",
+            else f"{_counted(len(self.defects), 'kind of defect', 'kinds of defects')}:",
         ]
 
 
+_ONE_SIDED = "repair: none gives an outside to a component with one side."
 _CURES = (
     (
         "non_finite_vertices",
@@ -157,7 +162,7 @@ _CURES = (
         "inconsistent_edges",
         "inconsistently oriented edges",
         "edges",
-        "repair: orient turns faces until neighbours agree, if the surface is orientable.",
+        "repair: orient turns faces until neighbours agree.",
     ),
     (
         "unreferenced_vertices",
@@ -193,7 +198,7 @@ def diagnose(mesh: Mesh) -> Diagnosis:
     boundary of 1 loop, genus 0, Euler characteristic 1
     manifold, oriented
     area 0.5
-    1 kind of defects:
+    1 kind of defect:
     - 1 unreferenced vertices (in no face): vertices 3. repair: remove_unreferenced drops them.
     """
     topology = require_mesh(mesh, "a diagnosis").topology

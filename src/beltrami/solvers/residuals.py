@@ -28,7 +28,7 @@ def residuals(
     r"""Return :math:`Lx - \lambda Bx` of some columns of X, computed in float64.
 
     Norms are those of (L, B), not of the scaled pencil: :math:`\|L\varphi - \lambda B\varphi\|
-    / \|\lambda B\varphi\|`.
+    / \|\lambda B\varphi\|`. Where rounding has left nothing of λ they are below 1/ε².
     """
     L, B = pencil.stiffness, pencil.mass
     R = np.empty((len(X), len(values)), dtype)
@@ -38,8 +38,9 @@ def residuals(
         X, columns.start, values, R, *sums,
     )  # fmt: skip
     residual, force, size = np.sqrt(sums)
-    force = np.maximum(force * np.abs(values), np.finfo(float).tiny)
-    return Residuals(R, residual / force, _UNITS * np.finfo(float).eps * size / force)
+    eps, tiny = np.finfo(float).eps, np.finfo(float).tiny
+    force = np.maximum(force * np.abs(values), np.maximum(eps**2 * size, tiny))
+    return Residuals(R, residual / force, _UNITS * eps * size / force)
 
 
 @kernel

@@ -125,8 +125,9 @@ def chebyshev_series(
 
 
 REMEDY = (
-    'Use method="exact", or "lanczos", a smoother kernel (with a width) or a larger tolerance; or '
-    "give the order, and nothing is promised."
+    'Use method="exact" on a small mesh, method="lanczos", a smoother kernel (with a width) or a '
+    "larger tolerance; fourier_basis(laplacian, k).filter(f, h) if h is small beyond the first k "
+    "eigenvalues; or give the order, and nothing is promised."
 )
 
 

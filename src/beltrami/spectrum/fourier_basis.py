@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
+from dataclasses import replace
 from typing import SupportsIndex
 
 import numpy as np
@@ -18,6 +19,8 @@ from beltrami.operators.domain import require_laplacian
 from beltrami.operators.pair import Laplacian
 from beltrami.solvers.eigenpairs import Eigenpairs, eigenpairs
 from beltrami.spectrum.basis import FourierBasis
+
+_ROUNDING = 1e-11  # of an eigenvalue, beside the largest of L_ii / B_ii
 
 
 @checked
@@ -64,11 +67,12 @@ def fourier_basis(
 
     Returns
     -------
-    The eigenvalues ascending. Vectors that belong to zero are known beforehand, one for each
-    component without held vertices: constant there, zero elsewhere, and exact. The sign: of the
-    entries that are the largest (to 1e-6) the first is positive. The same input, seed and number
-    of threads give the same bits; across machines only subspaces are comparable, because vectors
-    with equal eigenvalues can be turned among themselves.
+    The eigenvalues ascending; none is below zero where the pair is positive semi-definite. Vectors
+    that belong to zero are known beforehand, one for each component without held vertices: constant
+    there, zero elsewhere, and exact. (Where rounding leaves nothing of an eigenvalue it is zero,
+    too, and comes behind those.) The sign: of the entries that are the largest (to 1e-6) the first
+    is positive. The same input, seed and number of threads give the same bits; across machines only
+    subspaces are comparable, because vectors with equal eigenvalues can be turned among themselves.
 
     Raises
     ------
@@ -111,6 +115,8 @@ def fourier_basis(
         L, B, count, float(near), float(tol),
         coordinates=_positions(laplacian, free), certify=certify, seed=seed,
     )  # fmt: skip
+    if (found.values < 0).any() and laplacian.properties.positive_semidefinite:
+        found = _not_negative(found, L, B)
     return FourierBasis(
         found.values,
         _everywhere(found, free),
@@ -132,6 +138,22 @@ def _checked(k: SupportsIndex, near: float, tol: float, most: int) -> int:
     if not (math.isfinite(tol) and tol > 0):
         raise BeltramiError(f"tol must be finite and > 0, not {tol}")
     return count
+
+
+def _not_negative(found: Eigenpairs, L: csr_array, B: csr_array) -> Eigenpairs:
+    """Make eigenvalues zero that rounding left below it: a needle has far larger ones beside them.
+
+    They come behind the kernel that is known, and their residuals are those of a kernel.
+    """
+    scale = float((L.diagonal() / B.diagonal()).max())
+    below = (found.values < 0) & (found.values > -_ROUNDING * scale)
+    image = np.linalg.norm(L @ found.vectors, axis=0)
+    size = np.linalg.norm(abs(L) @ np.abs(found.vectors), axis=0)
+    values = np.where(below, 0.0, found.values)
+    residuals = np.where(below, image / np.where(size > 0, size, 1.0), found.residuals)
+    order = np.lexsort((below, values))
+    vectors = np.ascontiguousarray(found.vectors[:, order])
+    return replace(found, values=values[order], vectors=vectors, residuals=residuals[order])
 
 
 def _require_mass(B: csr_array, free: Booleans) -> None:

@@ -121,8 +121,9 @@ class _Space:
                 f"{most} vectors of Lanczos leave an error of about {error:.1g} beside the largest "
                 f"|h|, and {tolerance:.1g} is wanted",
                 error,
-                'Use method="chebyshev", or "exact", a smoother kernel (with a width) or a larger '
-                "tolerance; or give the order, and nothing is promised.",
+                'Use method="chebyshev", method="exact" on a small mesh, a smoother kernel (with a '
+                "width) or a larger tolerance; fourier_basis(laplacian, k).filter(f, h) if h is "
+                "small beyond the first k eigenvalues; or give the order, and nothing is promised.",
             )
         coordinates = watch.coordinates(*ritz_pairs(self.alpha, self.beta[:-1]))
         return np.asarray(self.norm * (coordinates @ self.vectors[: len(coordinates)]))
