@@ -21,7 +21,6 @@ _BENT, _MORE_BENT = 0.1, 0.1
 _MOST = 3.0  # a place is not more unusual than that
 _CHANCE = 4.0  # squares of directions below so many times those of chance count for nothing
 _SURE = 4.0  # standard deviations that are no chance
-_DOUBT = 0.02  # of σ, that it may be off
 _COST = 0.02  # of the risk, that fitting so many weights to the noise may cost
 _ALIKE = 1e-6  # eigenvalue of the correlations, below which a direction is none
 TERMS = len(_REMOVED) + len(_LEFT) + 3 * (len(_REMOVED_HERE) + len(_LEFT_HERE))
@@ -79,9 +78,8 @@ def best_corrections(
     The gain :math:`2 a \cdot c - a^T G a` with :math:`G = \langle f_j, f_k \rangle / n` and
     :math:`c = (\langle f_k n, y - x \rangle - \sigma^2 \mathrm{div}(f_k n)) / n` is unbiased (Stein
     1981; Luisier, Blu and Unser 2007). In each eigendirection of the correlations of the terms,
-    the coefficient z is shrunk by :math:`\max(0, 1 - 4 v/z^2)` (James and Stein 1961). Its
-    variance v is :math:`\sigma^2/n` by chance, and what an error of σ of 2 % makes of the
-    divergence.
+    the coefficient z, of the variance :math:`\sigma^2/n` by chance, is shrunk by
+    :math:`\max(0, 1 - 4\sigma^2/(n z^2))` (James and Stein 1961).
 
     Parameters
     ----------
@@ -104,8 +102,8 @@ def best_corrections(
     if not TERMS * sigma**2 <= _COST * n * risk:
         return NONE
     unit = float(mesh.edge_lengths.mean())
-    gram, agreement, of_noise = _gain(mesh, core, x, changed, sigma, unit)
-    weights = shrunk_weights(gram, agreement, sigma**2 / n, 2 * _DOUBT * of_noise)
+    gram, agreement = _gain(mesh, core, x, changed, sigma, unit)
+    weights = shrunk_weights(gram, agreement, sigma**2 / n)
     size = math.sqrt(max(float(weights @ gram @ weights), 0.0))
     gain = 2 * float(weights @ agreement) - size**2
     if not gain > _SURE * 2 * sigma * size / math.sqrt(n):
@@ -120,8 +118,8 @@ def _gain(
     changed: Sequence[tuple[Floats, Floats]],
     sigma: float,
     unit: float,
-) -> tuple[Floats, Floats, Floats]:
-    """Return G, c, and what c owes to the noise, the divergences measured by the changes."""
+) -> tuple[Floats, Floats]:
+    """Return G and c, the divergences measured by the changes."""
     n = int(core.sum())
     normals = mesh.with_vertices(x).vertex_normals
     terms = np.stack([f[core] for f in _terms(mesh, x, normals, unit)])
@@ -134,24 +132,22 @@ def _gain(
             divergence[k] += float(f[core] @ toward) / square
         divergence -= terms @ np.einsum("ij,ij->i", normals, change)[core] / square
     removed = np.einsum("ij,ij->i", mesh.vertices - x, normals)[core]
-    of_noise = np.asarray(sigma**2 * divergence / len(changed) / n)
-    return terms @ terms.T / n, np.asarray(terms @ removed / n - of_noise), of_noise
+    agreement = (terms @ removed - sigma**2 * divergence / len(changed)) / n
+    return terms @ terms.T / n, np.asarray(agreement)
 
 
-def shrunk_weights(gram: Floats, agreement: Floats, variance: float, doubt: Floats) -> Floats:
-    r"""Return the shrunk solution a of :math:`G a = c`.
-
-    The errors of c have the covariance v G, and, all at once, the standard deviations q.
+def shrunk_weights(gram: Floats, agreement: Floats, variance: float) -> Floats:
+    r"""Return the shrunk solution a of :math:`G a = c`, c with errors of the covariance v G.
 
     Parameters
     ----------
-    gram, agreement, variance, doubt
-        G, (k, k), c, (k,), v, and q, (k,).
+    gram, agreement, variance
+        G, (k, k), c, (k,), and v.
 
     Examples
     --------
-    >>> shrunk_weights(np.diag([4.0, 1.0]), np.array([8.0, 0.1]), 0.01, np.zeros(2)).round(3)
-    array([1.995, 0.   ])
+    >>> shrunk_weights(np.diag([4.0, 1.0]), np.array([8.0, 0.1]), 0.01).round(3).tolist()
+    [1.995, 0.0]
     """
     norms = np.sqrt(np.diag(gram))
     norms[norms == 0] = 1.0
@@ -159,9 +155,8 @@ def shrunk_weights(gram: Floats, agreement: Floats, variance: float, doubt: Floa
     kept = values > _ALIKE
     roots = np.sqrt(values[kept])
     z = vectors[:, kept].T @ (agreement / norms) / roots
-    variances = variance + (vectors[:, kept].T @ (doubt / norms) / roots) ** 2
     squares = np.maximum(z**2, np.finfo(float).tiny)
-    shares = np.maximum(1 - _CHANCE * variances / squares, 0.0)
+    shares = np.maximum(1 - _CHANCE * variance / squares, 0.0)
     return np.asarray(vectors[:, kept] @ (shares * z / roots) / norms)
 
 
