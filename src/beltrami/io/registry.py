@@ -64,7 +64,8 @@ def read_mesh(
     OBJ, OFF, PLY and STL are read here, checked byte by byte; the extra ``io`` adds GIFTI,
     FreeSurfer, glTF, VTK and others. Any of them may be compressed, as in ``mesh.obj.gz``.
     Polygons are cut into triangles from their first corner. The vertices stay in the order of
-    the file, and nothing is merged, except in STL, where exactly equal corners are one vertex.
+    the file, and nothing is merged, except what a format has to part: in STL exactly equal
+    corners are one vertex, in glTF vertices that differ only in their texture coordinates.
 
     Parameters
     ----------
@@ -80,7 +81,8 @@ def read_mesh(
     Returns
     -------
     Mesh
-        With ``vertex_data`` (PLY, COFF, NOFF, coloured OBJ) and ``corner_uv`` (OBJ, glTF).
+        With ``vertex_data`` (PLY, COFF, NOFF, coloured OBJ, glTF's normals and colours, as sRGB
+        values in [0, 1]) and ``corner_uv`` (OBJ, glTF).
 
     Raises
     ------
