@@ -78,6 +78,7 @@ def _fill(source: Source, state: NDArray[np.int64], limits: NDArray[np.int64]) -
     rows = source.size // _BYTES_OF_LINE + 16
     x, rgba, uv = np.empty((rows, 3)), np.empty((rows, 4)), np.empty((rows, 2))
     faces, turns = np.empty((rows, 3), np.int64), np.empty((rows, 3), np.int64)
+    row = np.empty(7)
     full = {
         lines.MORE_VERTICES: (x, rgba),
         lines.MORE_TEXTURES: (uv,),
@@ -85,11 +86,11 @@ def _fill(source: Source, state: NDArray[np.int64], limits: NDArray[np.int64]) -
     }
     for start, block in source.blocks():
         state[lines.POSITION] = 0 if start else mark_length(block)
-        status = lines.scan(block, state, limits, x, rgba, uv, faces, turns)
+        status = lines.scan(block, state, limits, row, x, rgba, uv, faces, turns)
         while status in full:
             for array in full[status]:
                 trimmed(array, 2 * len(array))
-            status = lines.scan(block, state, limits, x, rgba, uv, faces, turns)
+            status = lines.scan(block, state, limits, row, x, rgba, uv, faces, turns)
         if status != lines.DONE:
             expected = _EXPECTED[status].format(*(count_or_all(k) for k in limits))
             raise source.unexpected(start + int(state[lines.FAULT]), expected)
