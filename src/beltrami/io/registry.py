@@ -82,7 +82,7 @@ def read_mesh(
     -------
     Mesh
         With ``vertex_data`` (PLY, COFF, NOFF, coloured OBJ, glTF's normals and colours, as sRGB
-        values in [0, 1]) and ``corner_uv`` (OBJ, glTF).
+        values in [0, 1]) and ``corner_uv`` (OBJ, PLY, glTF).
 
     Raises
     ------
@@ -123,11 +123,11 @@ def write_mesh(
     """Write a mesh to a file: wholly, or on any error or interrupt not at all.
 
     What a format cannot hold is left out: OBJ keeps coordinates, texture coordinates and the
-    vertex data "color"; OFF coordinates, "color" and "normal"; PLY coordinates and all numeric
-    vertex data, with their types; STL only coordinates, rounded to 32 bits, as in GIFTI and
-    FreeSurfer's files (``lh.pial`` ...); GLB, in 32 bits too, what OBJ keeps, and normals, so that
-    viewers shade it smoothly (see ``glb_bytes``). Everything else reads back bit for bit. A flat
-    mesh (d = 2) is written with z = 0.
+    vertex data "color"; OFF coordinates, "color" and "normal"; PLY coordinates, all numeric
+    vertex data, with their types, and texture coordinates; STL only coordinates, rounded to 32
+    bits, as in GIFTI and FreeSurfer's files (``lh.pial`` ...); GLB, in 32 bits too, what OBJ keeps,
+    and normals, so that viewers shade it smoothly (see ``glb_bytes``). Everything else reads back
+    bit for bit. A flat mesh (d = 2) is written with z = 0.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ def write_mesh(
         The mesh, finite and with faces: what is written can be read.
     uv
         Texture coordinates (n, 2), or (m, 3, 2) for each corner, instead of ``mesh.corner_uv``:
-        only for OBJ and GLB, which holds them in single precision, and needs a copy of each
+        only for OBJ, PLY and GLB, which holds them in single precision, and needs a copy of each
         vertex for each of its coordinates.
     texture
         A picture to go with them, a file or an array: see ``render``. GLB holds it; with
@@ -171,7 +171,8 @@ def write_mesh(
     material = ""
     turns = None if uv is None else as_floats(uv)
     if turns is not None or texture is not None:
-        check_name("format for texture coordinates", suffix, TEXTURED)
+        holding = TEXTURED if texture is not None else (*TEXTURED, ".ply")
+        check_name("format for texture coordinates", suffix, holding)
         corner_texture(mesh, turns)  # before anything is written
     if texture is not None:
         if turns is None and mesh.corner_uv is None:
@@ -230,6 +231,9 @@ def _write(
         write_obj(file, mesh, vertices, uv, material)
     elif suffix == ".glb":
         file.write(glb_bytes(mesh, vertices, corner_texture(mesh, uv), texture))
+    elif suffix == ".ply" and uv is not None:
+        turns = corner_texture(mesh, uv)
+        write_ply(file, Mesh(mesh.vertices, mesh.topology, mesh.vertex_data, turns), vertices)
     elif suffix in WRITERS:
         WRITERS[suffix](file, mesh, vertices)
     else:
