@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import read_only
+from beltrami._arrays import Floats, read_only
 from beltrami.errors import FileFormatError, MeshError
 from beltrami.io import obj_kernel as lines
-from beltrami.io.source import Source, mark_length, trimmed
+from beltrami.io.source import POINTS_ONLY, Source, mark_length, trimmed
 from beltrami.mesh.mesh import Mesh
 
 _NO_LIMIT = 1 << 62
@@ -50,7 +50,10 @@ def read_obj(source: Source) -> Mesh:
     n, t, m = (int(state[i]) for i in (lines.VERTICES, lines.TEXTURES, lines.FACES))
     if n == 0 or m == 0:
         missing = "vertices (lines 'v x y z')" if n == 0 else "faces (lines 'f i j k')"
-        raise FileFormatError(source.path, f"expected {missing}, found none in the whole file")
+        hint = POINTS_ONLY if n else ""
+        raise FileFormatError(
+            source.path, f"expected {missing}, found none in the whole file{hint}"
+        )
     x, rgba, uv, faces, turns = arrays
     faces, turns = trimmed(faces, m), trimmed(turns, m)
     textured = bool(state[lines.TEXTURED])
@@ -71,6 +74,15 @@ def read_obj(source: Source) -> Mesh:
     except MeshError:  # an index beyond the last vertex: the second pass raises at its line
         _fill(source, np.zeros(7, np.int64), np.array([n, t]))
         raise
+
+
+def obj_points(source: Source) -> Floats:
+    """Read the vertices alone, (n, 3); faces are checked, but need not be there."""
+    state = np.zeros(7, np.int64)
+    x = _fill(source, state, np.full(2, _NO_LIMIT))[0]
+    if state[lines.VERTICES] == 0:
+        raise FileFormatError(source.path, "expected vertices (lines 'v x y z'), found none")
+    return trimmed(x, int(state[lines.VERTICES]))
 
 
 def _fill(source: Source, state: NDArray[np.int64], limits: NDArray[np.int64]) -> Any:

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import read_only
+from beltrami._arrays import Floats, read_only
 from beltrami._jit import kernel, part_of_kernels
 from beltrami.io.lanes import plain_faces
 from beltrami.io.numbers import next_line, read_integer, read_number, skip_blanks
-from beltrami.io.source import Source, mark_length, trimmed
+from beltrami.io.source import POINTS_ONLY, Source, mark_length, trimmed
 from beltrami.mesh.mesh import Mesh
 
 _DONE, _NOT_FINITE, _COLUMNS, _NOT_INTEGER, _TOO_FEW, _NO_VERTEX, _MORE, _LEFT = range(8)
@@ -44,19 +44,35 @@ def read_off(source: Source) -> Mesh:
     n, m = counts
     for count, what in ((n, "vertices"), (m, "faces")):
         if count == 0:
-            raise source.at_line(max(start - 1, 0), f"expected {what}, found the count 0")
-    if 6 * n + 8 * m > len(source.data) - start + 1:  # the shortest lines there are
-        raise source.at_line(
-            max(start - 1, 0),
-            f"expected {n} vertices and {m} faces, at least {6 * n + 8 * m} bytes, found "
-            f"{len(source.data) - start}: the file is cut off or its counts are wrong",
-        )
+            hint = POINTS_ONLY if n else ""
+            raise source.at_line(max(start - 1, 0), f"expected {what}, found the count 0{hint}")
+    _require_room(source, start, n, m)
     extra = 3 * ("N" in keyword)
     rows, columns, position = _read_vertices(source, start, n, 3 + extra, keyword)
     faces = _read_faces(source, position, n, m)
     data = _vertex_data(rows[:, 3:columns], keyword)
     vertices = rows if rows.shape[1] == 3 else rows[:, :3].copy()
     return Mesh(read_only(vertices), read_only(faces), data)
+
+
+def off_points(source: Source) -> Floats:
+    """Read the vertices alone, (n, 3); nothing after them is looked at."""
+    keyword, (n, m), start = _header(source)
+    if n == 0:
+        raise source.at_line(max(start - 1, 0), "expected vertices, found the count 0")
+    _require_room(source, start, n, m)
+    rows, _, _ = _read_vertices(source, start, n, 3 + 3 * ("N" in keyword), keyword)
+    return rows[:, :3].copy()
+
+
+def _require_room(source: Source, start: int, n: int, m: int) -> None:
+    """Refuse counts that the file is too short for, before anything is allocated."""
+    if 6 * n + 8 * m > len(source.data) - start + 1:  # the shortest lines there are
+        raise source.at_line(
+            max(start - 1, 0),
+            f"expected {n} vertices and {m} faces, at least {6 * n + 8 * m} bytes, found "
+            f"{len(source.data) - start}: the file is cut off or its counts are wrong",
+        )
 
 
 def _header(source: Source) -> tuple[str, tuple[int, int], int]:

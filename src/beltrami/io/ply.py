@@ -15,7 +15,7 @@ from beltrami.io.ply_binary import read_binary
 from beltrami.io.ply_data import grouped
 from beltrami.io.ply_header import Element, read_header
 from beltrami.io.ply_text import next_token, read_text
-from beltrami.io.source import Source
+from beltrami.io.source import POINTS_ONLY, Source
 from beltrami.mesh.mesh import Mesh
 
 _NONE = np.zeros((0, 3), np.int64)
@@ -87,6 +87,22 @@ def read_ply(source: Source) -> Mesh:
     if uv is None and by_vertex is not None:
         uv = by_vertex[mesh.faces]
     return mesh if uv is None else Mesh(mesh.vertices, mesh.topology, mesh.vertex_data, uv)
+
+
+def ply_points(source: Source) -> Floats:
+    """Read the vertices alone, (n, 3); nothing after them is looked at."""
+    header = read_header(source)
+    position = header.start
+    for element in header.elements:
+        rows = (
+            read_binary(source, position, element, header.order, None, None)
+            if header.order
+            else read_text(source, position, element, None, None)
+        )
+        if element.name == "vertex" and element.rows:
+            return _split(source, rows.scalars, position)[0]
+        position = rows.position
+    raise FileFormatError(source.path, "expected vertices (an element 'vertex'), found none")
 
 
 def _textured(element: Element) -> str | None:
@@ -189,7 +205,7 @@ def _assembled(
         raise FileFormatError(
             source.path,
             "expected faces (an element 'face' or 'tristrips' with a list "
-            "'vertex_indices'), found none",
+            f"'vertex_indices'), found none{POINTS_ONLY}",
         )
     if isinstance(faces.base, np.ndarray):
         faces.base.flags.writeable = False

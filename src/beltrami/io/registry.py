@@ -30,7 +30,7 @@ from beltrami.io.off_write import write_off
 from beltrami.io.picture import Picture, png_bytes
 from beltrami.io.ply import read_ply
 from beltrami.io.ply_write import write_ply
-from beltrami.io.source import Source, load
+from beltrami.io.source import POINTS_ONLY, Source, load
 from beltrami.io.stl import read_stl, write_stl
 from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
@@ -107,6 +107,8 @@ def read_mesh(
     """
     if Path(path).is_dir():
         raise FileFormatError(path, "expected a file, found a directory. Name a file in it")
+    if format is None and Path(path).suffix.lower() == ".xyz":
+        raise FileFormatError(path, f"expected a format with faces{POINTS_ONLY}")
     suffix = suffix_of(path, format, (*READERS, *extras.READERS))
     if suffix in READERS:
         return READERS[suffix](load(path, max_bytes))
