@@ -113,6 +113,10 @@ class Row:
     large
         Measured with ``--large``, for a report of its own: it takes many minutes. The warm-up is
         on a small mesh, and the first timed run gives the result that is compared.
+    alone
+        The two contenders of the one goal are timed in turn in a process that nobody else runs in,
+        and it is judged by that. For work that takes and frees much memory: the first touch of
+        pages is up to half of its time, or nothing after others have touched and freed them.
     """
 
     name: str
@@ -125,3 +129,4 @@ class Row:
     clock: Callable[[], float] = time.process_time
     memory: bool = True
     large: bool = False
+    alone: bool = False

@@ -11,9 +11,9 @@ from tempfile import TemporaryDirectory
 
 from benchmarks.cases import Case, cases, small
 from benchmarks.claims import Row
+from benchmarks.fresh import ask
 from benchmarks.harness import Measured, Table, attempt, measure
 from benchmarks.kept import keep, kept
-from benchmarks.memory import peak
 from benchmarks.report import goals, written
 from benchmarks.rows import ROWS
 
@@ -34,16 +34,38 @@ def with_memory(table: Table, folder: Path, quick: bool) -> Table:
     def measured(one: Measured) -> Measured:
         if one.problem or one.contender.times_itself:
             return one
-        held, problem = attempt(peak, table.row.name, table.case, one.contender.name, folder, quick)
+        asked = table.row.name, table.case, (one.contender.name,), folder, quick, 2
+        held, problem = attempt(ask, "memory", *asked)
         return replace(one, memory=held, memory_problem=problem)
 
     return replace(table, measured=tuple(map(measured, table.measured)))
+
+
+def with_times_alone(table: Table, folder: Path, quick: bool, runs: int) -> Table:
+    """Time the two that the goal compares once more, in a process where nobody else runs.
+
+    Raises
+    ------
+    RuntimeError
+        If that process fails, though both had run before.
+    """
+    (goal,) = table.row.goals
+    ours, other = table.named(goal.of), table.against(goal)
+    if ours is None or other is None:
+        return table
+    names = ours.contender.name, other.contender.name
+    seconds = ask("alone", table.row.name, table.case, names, folder, quick, runs)
+    alone = dict(zip(names, map(tuple, seconds), strict=True))
+    measured = (replace(one, alone=alone.get(one.contender.name, ())) for one in table.measured)
+    return replace(table, measured=tuple(measured))
 
 
 def measured_now(row: Row, case: Case, asked: argparse.Namespace, folder: Path) -> Table:
     """Measure a row on a mesh."""
     runs = asked.runs or (QUICK_RUNS if asked.quick else row.runs)
     table = measure(row, case, runs, small(folder) if row.large else None)
+    if row.alone:
+        table = with_times_alone(table, folder, asked.quick, runs)
     return with_memory(table, folder, asked.quick) if row.memory and not asked.no_memory else table
 
 

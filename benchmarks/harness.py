@@ -17,7 +17,10 @@ ORDER = 918_273_645
 
 @dataclass(frozen=True)
 class Measured:
-    """What came out for one contender; ``problem`` says why there are no seconds, if so."""
+    """What came out for one contender; ``problem`` says why there are no seconds, if so.
+
+    ``alone`` are the seconds in a process of this one and of the one that it is judged with.
+    """
 
     contender: Contender
     seconds: tuple[float, ...] = ()
@@ -26,6 +29,7 @@ class Measured:
     problem: str = ""
     memory: int | None = None
     memory_problem: str = ""
+    alone: tuple[float, ...] = ()
 
     @property
     def memory_text(self) -> str:
@@ -38,6 +42,11 @@ class Measured:
     def median(self) -> float:
         """Median of the runs, in seconds."""
         return statistics.median(self.seconds)
+
+    @property
+    def judged(self) -> float:
+        """Median of the runs that a goal looks at: those alone, where there are any."""
+        return statistics.median(self.alone or self.seconds)
 
     @property
     def agrees(self) -> bool:
@@ -86,11 +95,17 @@ class Table:
         if ours is None or not ours.agrees:
             return None
         if goal.against is None:
-            return ours.median
-        other = self.best_peer if goal.against == BEST_PEER else self.named(goal.against)
+            return ours.judged
+        other = self.against(goal)
         if other is None:
             return None
-        return ours.median - other.median if goal.less else ours.median / other.median
+        return ours.judged - other.judged if goal.less else ours.judged / other.judged
+
+    def against(self, goal: Goal) -> Measured | None:
+        """Return the contender that a goal compares with."""
+        if goal.against is None:
+            return None
+        return self.best_peer if goal.against == BEST_PEER else self.named(goal.against)
 
 
 def described(error: Exception) -> str:

@@ -20,7 +20,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from benchmarks.memory import ROOT, forget_peak, status
+from benchmarks.fresh import ROOT
+from benchmarks.memory import forget_peak, status
 from benchmarks.threads import one_thread
 
 

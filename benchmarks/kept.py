@@ -44,12 +44,16 @@ def kept(folder: Path, row: Row, case: Case) -> Table | None:
             measured = tuple(
                 Measured(
                     named[facts["name"]],
-                    **{fact: facts[fact] for fact in FACTS} | {"seconds": tuple(facts["seconds"])},
+                    **{fact: facts[fact] for fact in FACTS if fact in facts} | _times(facts),
                 )
                 for facts in one["measured"]
             )
             return Table(row, case.name, one["n_vertices"], one["n_faces"], measured)
     return None
+
+
+def _times(facts: dict[str, Any]) -> dict[str, tuple[float, ...]]:
+    return {fact: tuple(facts.get(fact, ())) for fact in ("seconds", "alone")}
 
 
 def _stored(folder: Path) -> list[dict[str, Any]]:

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import argparse
 import ctypes
 import gc
-import subprocess
-import sys
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from benchmarks.threads import one_thread
+from benchmarks.fresh import answer
+
+if TYPE_CHECKING:
+    from benchmarks.cases import Case
+    from benchmarks.claims import Row
 
 STATUS = Path("/proc/self/status")
-SECONDS = 1200
-ROOT = Path(__file__).parent.parent
 
 
 def status(field: str) -> int:
@@ -31,60 +32,24 @@ def forget_peak() -> None:
     Path("/proc/self/clear_refs").write_text("5")
 
 
-def peak_here(row_name: str, case_name: str, contender_name: str, folder: Path, quick: bool) -> int:
-    """Return the bytes that one run needs above what was held before it (Linux only).
+def peak_of(row: Row, case: Case, names: Sequence[str], runs: int) -> int:
+    """Return the bytes that the last run of a contender needs above what was held before it.
 
-    It is the second run that counts: the first one compiles and loads, on a small mesh where the
-    row is a large one.
+    The runs before compile and load, on a small mesh where the row is a large one. Linux only.
     """
-    from benchmarks.cases import cases, small
-    from benchmarks.rows import ROWS
+    from benchmarks.cases import small
 
-    row = next(row for row in ROWS if row.name == row_name)
-    case = next(case for case in cases(row.size, folder, quick) if case.name == case_name)
-    first = small(folder) if row.large else case
-    warm = next(one for one in row.contenders(first) if one.name == contender_name)
-    warm.run(warm.prepare())
-    contender = next(one for one in row.contenders(case) if one.name == contender_name)
-    given = contender.prepare()
-    forget_peak()
-    before = status("VmRSS")
-    contender.run(given)
+    (name,) = names
+    for run in range(runs):
+        last = run == runs - 1
+        mesh = small(case.folder) if row.large and not last else case
+        contender = next(one for one in row.contenders(mesh) if one.name == name)
+        given = contender.prepare()
+        forget_peak()
+        before = status("VmRSS")
+        contender.run(given)
     return status("VmHWM") - before
 
 
-def peak(
-    row_name: str, case_name: str, contender_name: str, folder: Path, quick: bool = False
-) -> int:
-    """Start the process that measures, and return its bytes.
-
-    Raises
-    ------
-    RuntimeError
-        If it fails; the message is the last line that it wrote.
-    """
-    command = [sys.executable, "-m", "benchmarks.memory", row_name, case_name, contender_name]
-    command += [str(folder.resolve()), *(["--quick"] if quick else [])]
-    done = subprocess.run(
-        command, capture_output=True, text=True, timeout=SECONDS, check=False, cwd=ROOT
-    )
-    lines = done.stdout.split() if done.returncode == 0 else []
-    if not lines:
-        last = (done.stderr.strip().splitlines() or ["it wrote nothing"])[-1]
-        raise RuntimeError(f"the memory was not measured (exit {done.returncode}): {last}")
-    return int(lines[-1])
-
-
-def main() -> None:
-    one_thread()
-    parser = argparse.ArgumentParser()
-    for name in ("row", "case", "contender"):
-        parser.add_argument(name)
-    parser.add_argument("folder", type=Path)
-    parser.add_argument("--quick", action="store_true")
-    asked = parser.parse_args()
-    print(peak_here(asked.row, asked.case, asked.contender, asked.folder, asked.quick))
-
-
 if __name__ == "__main__":
-    main()
+    answer(peak_of)

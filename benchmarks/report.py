@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from benchmarks.claims import BEST_PEER, Goal
+from benchmarks.claims import Goal
 from benchmarks.harness import Measured, Table
 from benchmarks.machine import facts
 from benchmarks.packages import versions
@@ -15,7 +15,9 @@ HEAD = """# Benchmarks
 Written by `python -m benchmarks` (`make bench` installs the peers first); `benchmarks/README.md`
 tells how it is measured. Every library gets the same arrays in one process, on one thread, in
 turn; times are medians of CPU seconds unless wall time is said. Absolute times belong to the
-machine named at the end: what counts is the ratio.
+machine named at the end: what counts is the ratio. In a row with large arrays the two that the
+goal compares are timed alone in a fresh process: to take memory costs little in a process where
+other libraries have touched and freed much of it.
 """
 NONE = "-"
 
@@ -24,12 +26,6 @@ def grid(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """Write a table of Markdown."""
     lines = [list(heads), ["---"] * len(heads), *map(list, rows)]
     return "\n".join("| " + " | ".join(cell.replace("|", "/") for cell in x) + " |" for x in lines)
-
-
-def against(table: Table, goal: Goal) -> Measured | None:
-    if goal.against is None:
-        return None
-    return table.best_peer if goal.against == BEST_PEER else table.named(goal.against)
 
 
 def verdict(table: Table, goal: Goal) -> str:
@@ -46,13 +42,13 @@ def verdict(table: Table, goal: Goal) -> str:
 
 def goal_line(table: Table, goal: Goal) -> list[str]:
     """Return one line of the first table."""
-    ours, other, value = table.named(goal.of), against(table, goal), table.value(goal)
+    ours, other, value = table.named(goal.of), table.against(goal), table.value(goal)
     sign = "less " if goal.less else ""
     return [
         table.row.work,
         table.case,
-        f"{goal.of} {ours.median:.4f} s" if ours else goal.of,
-        f"{sign}{other.contender.name} {other.median:.4f} s" if other else NONE,
+        f"{goal.of} {ours.judged:.4f} s" if ours else goal.of,
+        f"{sign}{other.contender.name} {other.judged:.4f} s" if other else NONE,
         f"{value:.3f} {goal.unit}" if value is not None else NONE,
         f"<= {goal.limit:g} {goal.unit}",
         verdict(table, goal),
@@ -104,7 +100,18 @@ def raw(table: Table) -> str:
     told = ("residual",) if with_residual else ()
     heads = ("", "median s", "range", "peak MB", "difference", *told, "")
     text = f"{table.row.work}{mesh}; {runs} runs.\n\n"
-    return title + text + grid(heads, [raw_line(one, with_residual) for one in table.measured])
+    lines = grid(heads, [raw_line(one, with_residual) for one in table.measured])
+    return title + text + lines + alone(table)
+
+
+def alone(table: Table) -> str:
+    """Tell what the two took that a goal compares, in a process of their own."""
+    told = [
+        f"{one.contender.name} {one.judged:.4f} s ({min(one.alone):.4f} to {max(one.alone):.4f})"
+        for one in table.measured
+        if one.alone
+    ]
+    return f"\n\nAlone in a process, in turn: {', '.join(told)}." if told else ""
 
 
 def written(tables: Sequence[Table]) -> str:

@@ -4,8 +4,8 @@ python -m benchmarks.smoothing_times [mesh ...] [--output BENCHMARKS-SMOOTHING.m
 
 The same rounds or steps for everybody, from arrays of vertices and faces to arrays of vertices;
 what a library prepares is counted, because smoothing is called once. CPU seconds of all threads,
-the median of some calls, everyone in turn. The rounds of 50 with the operator given are in
-BENCHMARKS.md.
+the median of some calls; everyone in each round, in another order each time. The rounds of 50 with
+the operator given are in BENCHMARKS.md.
 """
 
 from __future__ import annotations
@@ -17,16 +17,17 @@ if __name__ == "__main__":
 
 import argparse
 import os
-import statistics
-import time
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
+from time import process_time
 from typing import Any
 
 import numpy as np
 
 from benchmarks.cases import FOLDER_VARIABLE
+from benchmarks.claims import Contender, Row
+from benchmarks.harness import Measured, in_turn, untimed
 from benchmarks.machine import facts
 from benchmarks.noisy_meshes import PAIR, noisy, pair, truth_of
 from benchmarks.packages import package, versions
@@ -38,9 +39,10 @@ HEAD = """# Benchmarks of smoothing
 
 Written by `python -m benchmarks.smoothing_times --output BENCHMARKS-SMOOTHING.md` with one thread.
 The same rounds or steps for everybody, from arrays of vertices and faces to arrays of vertices;
-what a library prepares is counted, because smoothing is called once. CPU seconds, everyone in
-turn. Below 1 we are the fastest. Filters of normals differ in their weights (bilateral here, "two
-steps" in PyMeshLab): the number of rounds is the same, not the result.
+what a library prepares is counted, because smoothing is called once. CPU seconds, everyone once
+in each round, the rounds in different orders. Below 1 we are the fastest. Filters of normals differ
+in their weights (bilateral here, "two steps" in PyMeshLab): the number of rounds is the same, not
+the result.
 """
 
 
@@ -117,25 +119,22 @@ def contenders(mesh: Any) -> Iterator[tuple[str, str, Call]]:
 
 
 def table(mesh: Any, rounds: int) -> str:
-    """Time everybody in turn and write the table of one mesh."""
-    calls = list(contenders(mesh))
-    seconds: dict[tuple[str, str], list[float]] = {}
-    for k in range(rounds + 1):
-        for work, library, call in calls:
-            start = time.process_time()
-            call()
-            if k:  # the first compiles
-                seconds.setdefault((work, library), []).append(time.process_time() - start)
+    """Time everybody once in each round, the rounds in different orders; write the table."""
+    works = list(contenders(mesh))
+    everybody = [Contender(library, lambda _, call=call: call()) for _, library, call in works]
+    for one in everybody:
+        untimed(one)  # compiles
+    row = Row("smoothing", "smoothing", lambda _: everybody, (), clock=process_time)
+    found: dict[str, list[Measured]] = {}
+    timed = in_turn(row, [Measured(one) for one in everybody], rounds)
+    for (work, *_), one in zip(works, timed, strict=True):
+        found.setdefault(work, []).append(one)
     rows = []
-    for work in dict.fromkeys(work for work, _, _ in calls):
-        found = {key[1]: statistics.median(times) for key, times in seconds.items()
-                 if key[0] == work}  # fmt: skip
-        mine = next(iter(found))
-        others = {library: value for library, value in found.items() if library != mine}
-        best = min(others, key=lambda library: others[library])
-        rows.append([work, f"{found[mine]:.3f}",
-                     ", ".join(f"{name} {value:.3f}" for name, value in others.items()),
-                     f"{found[mine] / others[best]:.2f} x {best}"])  # fmt: skip
+    for work, (mine, *others) in found.items():
+        told = [f"{one.contender.name} {one.problem or f'{one.median:.4f}'}" for one in others]
+        best = min((one for one in others if one.seconds), key=lambda one: one.median)
+        ratio = f"{mine.median / best.median:.2f} x {best.contender.name}"
+        rows.append([work, f"{mine.median:.4f}", ", ".join(told), ratio])
     return grid(("work", "ours, s", "peers, s", "ratio to the fastest"), rows)
 
 

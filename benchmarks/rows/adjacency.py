@@ -70,4 +70,5 @@ ADJACENCY = Row(
     goals=(Goal(0.2),),
     difference=difference,
     size=537_000,
+    alone=True,
 )

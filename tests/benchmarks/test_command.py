@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -99,3 +100,23 @@ def test_stopped_run_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr(command, "measured_now", now)
     command.main(folder)
     assert measured == ["second"]
+
+
+def test_goal_of_a_row_alone_is_judged_by_the_two_it_compares(
+    report: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[tuple[object, ...]] = []
+
+    def ask(*arguments: object) -> object:
+        asked.append(arguments)
+        return 12 if arguments[0] == "memory" else [[3.0, 1.0, 2.0], [5.0, 5.0, 5.0]]
+
+    monkeypatch.setattr(command, "ask", ask)
+    monkeypatch.setattr(command, "ROWS", (replace(row("first"), alone=True),))
+    for _ in range(2):  # measured, and as it was kept
+        command.main(["--runs", "3", "--folder", str(report.parent)])
+        assert [one[3] for one in asked if one[0] == "alone"] == [("beltrami", "peer")]
+        text = report.read_text()
+        assert "| beltrami 2.0000 s | peer 5.0000 s | 0.400 x | <= 0.5 x | met |" in text
+        assert "| beltrami | 1.0000 | 1.0000 to 1.0000 |" in text  # among all
+        assert "in turn: beltrami 2.0000 s (1.0000 to 3.0000), peer 5.0000 s (5.0000 to" in text

@@ -7,9 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from benchmarks.cases import Case, no_mesh
 from benchmarks.claims import Contender, Row
 
-from benchmarks import memory, rows
+from benchmarks import memory
 
 SIZE = 48 * 2**20
 
@@ -21,7 +22,7 @@ def held(count: int) -> np.ndarray:
 
 
 @linux
-def test_peak_is_that_of_the_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_peak_is_that_of_the_run(tmp_path: Path) -> None:
     sizes = iter([9, 2])  # the first run is the warm-up: its peak does not count
 
     def run(_: np.ndarray) -> None:
@@ -34,15 +35,9 @@ def test_peak_is_that_of_the_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
         (),
         size=0,
     )
-    monkeypatch.setattr(rows, "ROWS", (row,))
-    peak = memory.peak_here("row", "no mesh", "a", tmp_path, quick=False)
+    peak = memory.peak_of(row, Case("no mesh", tmp_path, no_mesh), ["a"], 2)
     assert peak + 2**20 >= 2 * SIZE  # what is prepared does not count
     assert peak < 2.5 * SIZE
-
-
-def test_failure_of_the_process_is_told(tmp_path: Path) -> None:
-    with pytest.raises(RuntimeError, match=r"exit 1.*StopIteration"):
-        memory.peak("no such row", "no mesh", "a", tmp_path)
 
 
 @linux

@@ -34,7 +34,7 @@ def test_each_rule_against_its_sum(name):
     mesh = MESHES[name]()
     f = np.random.default_rng(5).normal(size=(mesh.n_vertices, 3))
     assert integrate(mesh, f) == pytest.approx(vertex_areas(mesh, "barycentric") @ f)
-    assert integrate(mesh, f[:, 0]).shape == ()
+    assert isinstance(integrate(mesh, f[:, 0]), float)
     quadratic = lambda x: x[:, 0] ** 2 - x[:, 0] * x[:, 1]  # noqa: E731
     i, j = mesh.edges.T
     for kind in EDGE_AREA_KINDS:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeAlias
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from beltrami._arrays import Floats, as_function
@@ -42,7 +41,7 @@ def integrate(
 
     Returns
     -------
-    () or (c,) the integrals of the columns, in the unit of f times length².
+    A number, or (c,) the integrals of the columns, in the unit of f times length².
 
     Raises
     ------
@@ -72,13 +71,20 @@ def integrate(
     if check_name("way to integrate", how, PLACES) == "vertex":
         cells = vertex_areas(mesh, "barycentric" if areas is None else areas)
         values = _at(mesh.vertices, f) if callable(f) else as_function(f, mesh.n_vertices)
-        return np.asarray(cells @ values)
-    cells = edge_areas(mesh, "circumcenter" if areas is None else areas)
+    else:
+        cells = edge_areas(mesh, "circumcenter" if areas is None else areas)
+        values = _at_middles(mesh, f)
+    integrals: Floats = cells @ values  # a number where f has one column
+    return integrals
+
+
+def _at_middles(mesh: Mesh, f: ArrayLike | OfPositions) -> Floats:
+    """Evaluate a function at the middles of the edges: values there are the mean of both ends."""
     i, j = mesh.edges.T
     if callable(f):
-        return np.asarray(cells @ _at((mesh.vertices[i] + mesh.vertices[j]) / 2, f))
+        return _at((mesh.vertices[i] + mesh.vertices[j]) / 2, f)
     at_vertices = as_function(f, mesh.n_vertices)
-    return np.asarray(cells @ (at_vertices[i] + at_vertices[j]) / 2)
+    return (at_vertices[i] + at_vertices[j]) / 2
 
 
 def _at(positions: Floats, f: OfPositions) -> Floats:
