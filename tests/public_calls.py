@@ -150,6 +150,11 @@ MESHES = {
         (".ply", ".obj", ".off", ".stl"),
         lambda s, kind: bt.read_mesh(_written(s, kind)),
     ),
+    **each(
+        "read_points",
+        (".ply", ".obj", ".off"),
+        lambda s, kind: bt.read_points(_written(s, kind)),
+    ),
     "write_mesh": lambda s: _written(s, ".ply.gz").stat().st_size,
     "read_function": lambda s: bt.read_function(_table(s)),
     "write_function": lambda s: bt.write_function(s.path("g.csv"), s.f, missing=True),

@@ -9,6 +9,7 @@ import numba
 import numpy as np
 import pytest
 
+from beltrami import _jit
 from beltrami._jit import kernel, part_of_kernels, plain_kernel, unsigned
 
 USE = """
@@ -155,3 +156,22 @@ def test_unsigned_is_a_view(bits):
 
 def test_unsigned_arrays_stay_as_they_are():
     assert unsigned(np.array([1, 2], np.uint32)).tolist() == [1, 2]
+
+
+@part_of_kernels
+def doubled(x):
+    return 2 * x
+
+
+def test_a_part_is_compiled_once_for_all_and_can_be_a_kernel_as_well():
+    """A kernel of a part does not take what is on disk of it, which Python could not call."""
+
+    def first(x):
+        return doubled(x) + 1
+
+    def second(x):
+        return doubled(doubled(x))
+
+    assert (kernel(first)(3), kernel(second)(3), kernel(doubled)(3)) == (7, 12, 6)
+    part = _jit._PARTS[doubled]
+    assert len(part.overloads) <= 1  # none where both kernels were on disk already

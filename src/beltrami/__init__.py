@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     from beltrami.grids.transform import idft as idft
     from beltrami.io.function import read_function as read_function
     from beltrami.io.function_write import write_function as write_function
+    from beltrami.io.points import read_points as read_points
     from beltrami.io.registry import read_mesh as read_mesh
     from beltrami.io.registry import write_mesh as write_mesh
     from beltrami.learning.learning_operators import learning_operators as learning_operators
@@ -245,6 +246,7 @@ _HOME = {
     "project": "operators.projection",
     "read_function": "io.function",
     "read_mesh": "io.registry",
+    "read_points": "io.points",
     "regularize": "diffusion.regularize",
     "render": "display.render",
     "repair": "mesh.repair",

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import Any, TypeVar, cast
 
 import numba
-from numba.core import event
-from numba.extending import register_jitable
+from numba.core import event, types
+from numba.core.typing.templates import infer_global
 from numpy.typing import NDArray
 
 from beltrami._collector import resting_collector
@@ -26,16 +26,17 @@ class _Compiling(event.Listener):  # type: ignore[misc]
 
 
 event.register("numba:compiler_lock", _Compiling())
+_PARTS: dict[Any, Any] = {}  # what is compiled without an entry for Python
 
 
 def kernel(function: Function) -> Function:
     """Compile a function on first use; nothing breaks where the cache cannot be written.
 
     The GIL is released, floating-point arithmetic is not reordered: the same input gives the
-    same bits.
+    same bits. A part of kernels can be one as well; what is on disk has no entry for Python then.
     """
     try:
-        return cast(Function, numba.njit(cache=True, nogil=True)(function))
+        return cast(Function, numba.njit(cache=function not in _PARTS, nogil=True)(function))
     except RuntimeError:  # "cannot cache function": no folder to write into
         return cast(Function, numba.njit(nogil=True)(function))
 
@@ -59,10 +60,18 @@ def plain_kernel(function: Function) -> Function:
 def part_of_kernels(function: Function) -> Function:
     """Let kernels call a function; for Python it stays as it is written.
 
-    It is compiled into each kernel that calls it, without what makes it ready for Python, which
-    takes as long as a small function itself.
+    It is compiled once for all kernels that call it, and kept on disk, without what makes it
+    ready for Python, which takes as long as a small function itself. Each constant that it is
+    called with is another type, for which it is compiled anew.
     """
-    return cast(Function, register_jitable(function))
+    options: dict[str, Any] = {"nogil": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    try:
+        part = numba.njit(cache=True, **options)(function)
+    except RuntimeError:
+        part = numba.njit(**options)(function)
+    _PARTS[function] = part  # types hold what they are of weakly
+    infer_global(function, types.Dispatcher(part))  # Python itself would crash if it called it
+    return function
 
 
 def unsigned(indices: NDArray[Any]) -> NDArray[Any]:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from beltrami.display.render import render
 from beltrami.errors import FileFormatError, NonFiniteError
 from beltrami.io.picture import as_picture
 from beltrami.io.registry import read_mesh, write_mesh
@@ -214,3 +215,94 @@ def test_trimesh_reads_what_is_written(tmp_path, trimesh):
     np.testing.assert_allclose(theirs.vertex_normals, ball.vertex_normals, atol=1e-6)
     picture = theirs.visual.material.baseColorTexture
     np.testing.assert_array_equal(np.asarray(picture.convert("RGB")), PICTURE)
+
+
+@pytest.mark.usefixtures("trimesh")
+def test_seams_of_a_texture_do_not_tear_the_surface(tmp_path):
+    """A file has a copy of each vertex for each of its texture coordinates; a mesh has none."""
+    ball = icosphere(2)
+    turns = np.random.default_rng(1).random((ball.n_faces, 3, 2))
+    mesh = Mesh(ball.vertices.astype(np.float32), ball.faces, corner_uv=turns)
+    write_mesh(tmp_path / "a.glb", mesh)
+    assert len(surface(tmp_path / "a.glb")[0]["POSITION"]) == 3 * mesh.n_faces
+    back = read_mesh(tmp_path / "a.glb")
+    np.testing.assert_array_equal(back.vertices, mesh.vertices)
+    np.testing.assert_array_equal(back.faces, mesh.faces)
+    np.testing.assert_allclose(back.corner_uv, turns, atol=1e-7)
+    np.testing.assert_allclose(back.vertex_data["normal"], mesh.vertex_normals, atol=1e-6)
+    seen = [render(m, size=(60, 60)) for m in (mesh, back)]
+    np.testing.assert_array_equal(*seen)
+
+
+@pytest.mark.usefixtures("trimesh")
+@pytest.mark.parametrize("width", [3, 4])
+@pytest.mark.parametrize("seam", [False, True])
+def test_colours_come_back(tmp_path, width, seam):
+    ball = icosphere(1)
+    colour = np.random.default_rng(2).integers(0, 256, (ball.n_vertices, width), dtype=np.uint8)
+    turns = np.random.default_rng(1).random((ball.n_faces, 3, 2)) if seam else None
+    write_mesh(tmp_path / "a.glb", ball.with_data(color=colour), turns)
+    back = read_mesh(tmp_path / "a.glb").vertex_data["color"]
+    np.testing.assert_allclose(back, colour / 255, atol=1e-6)  # in eight bits of light: 0.05
+
+
+@pytest.mark.usefixtures("trimesh")
+@pytest.mark.parametrize("name", ["normal", "color"])
+def test_vertices_that_differ_in_more_than_texture_stay_apart(tmp_path, name):
+    """As at a sharp edge, which a file has as copies with a normal for each side."""
+    square = grid(2, 1, dimension=3)
+    corners = Mesh(square.vertices[square.faces].reshape(-1, 3), np.arange(12).reshape(-1, 3))
+    told = np.zeros((12, 3))
+    told[:6, 0], told[6:, 1] = 1, 1
+    uv = np.random.default_rng(0).random((4, 3, 2))
+    write_mesh(tmp_path / "a.glb", corners.with_data(**{name: told}), uv)
+    back = read_mesh(tmp_path / "a.glb")
+    assert back.n_vertices == 4 + 4  # of two squares side by side, which share no vertex
+    np.testing.assert_allclose(
+        back.vertex_data[name][back.faces].reshape(-1, 3), told[corners.faces].reshape(-1, 3)
+    )
+    write_mesh(tmp_path / "b.glb", corners.with_data(**{name: told}))
+    np.testing.assert_array_equal(read_mesh(tmp_path / "b.glb").faces, corners.faces)
+
+
+def test_colours_and_normals_of_a_scene_of_trimesh(tmp_path, trimesh):
+    """One byte is 8 bits of linear light; what a surface lacks is NaN; normals turn along."""
+    scene = trimesh.Scene()
+    ball = trimesh.creation.icosphere(1)
+    ball.visual = trimesh.visual.ColorVisuals(
+        ball, vertex_colors=np.tile([55, 128, 255, 102], (42, 1)).astype(np.uint8)
+    )
+    flattened = np.diag([2.0, 1.0, -1.0, 1.0])
+    flattened[2, 3] = 9
+    scene.add_geometry(ball, transform=flattened)
+    scene.add_geometry(trimesh.creation.box())
+    scene.export(tmp_path / "a.glb", include_normals=True)
+    mesh = read_mesh(tmp_path / "a.glb")
+    far = mesh.vertices[:, 2] > 5
+    assert far.sum() == 42
+    light = np.array([55, 128, 255]) / 255
+    exact = [*(1.055 * light ** (1 / 2.4) - 0.055), 102 / 255]
+    np.testing.assert_allclose(mesh.vertex_data["color"][far], [exact] * 42, atol=1e-12)
+    assert np.isnan(mesh.vertex_data["color"][~far]).all()
+    x = (mesh.vertices[far] - [0, 0, 9]) / [4, 1, 1]  # half the gradient of x²/4 + y² + z²
+    outward = x / np.linalg.norm(x, axis=1, keepdims=True)
+    np.testing.assert_allclose(mesh.vertex_data["normal"][far], outward, atol=1e-6)
+    assert mesh.volume > 0
+    ball.export(tmp_path / "b.glb", include_normals=False)
+    assert list(read_mesh(tmp_path / "b.glb").vertex_data) == ["color"]  # none is made up
+
+
+def test_a_box_of_trimesh_with_a_texture_is_closed_again(tmp_path, trimesh):
+    export_gltf = pytest.importorskip("trimesh.exchange.gltf").export_gltf
+    box, _ = textured(trimesh, 0.0, 0)
+    corners = trimesh.Trimesh(
+        box.triangles.reshape(-1, 3), np.arange(36).reshape(-1, 3), process=False
+    )
+    uv = np.random.default_rng(3).random((36, 2))
+    corners.visual = trimesh.visual.TextureVisuals(uv=uv, material=box.visual.material)
+    for name, content in export_gltf(trimesh.Scene(corners)).items():  # the numbers beside
+        (tmp_path / name).write_bytes(content)
+    mesh = read_mesh(tmp_path / "model.gltf")
+    assert mesh.n_vertices == 8
+    assert mesh.is_closed
+    np.testing.assert_allclose(mesh.corner_uv.reshape(-1, 2), uv, atol=1e-6)

@@ -4,17 +4,23 @@ from __future__ import annotations
 
 import math
 import struct
+from concurrent.futures import ThreadPoolExecutor
 from decimal import Decimal, localcontext
 from fractions import Fraction
 
 import numpy as np
 import pytest
 
-from beltrami.io.decimal import nearest
-from beltrami.io.digits import eight
-from beltrami.io.numbers import read_integer, read_number
+from beltrami._jit import kernel
+from beltrami.io import decimal, digits, numbers, rounding
 from beltrami.io.powers import FIVE_HIGH, FIVE_LOW, SMALLEST
-from beltrami.io.rounding import product, scaled
+
+eight = kernel(digits.eight)
+nearest = kernel(decimal.nearest)
+product = kernel(rounding.product)
+read_integer = kernel(numbers.read_integer)
+read_number = kernel(numbers.read_number)
+scaled = kernel(rounding.scaled)
 
 
 def parse(text: str) -> float:
@@ -130,12 +136,27 @@ def test_the_end_of_the_buffer_is_respected():
         assert read_integer(data, 0, end)[1] == (end if end <= 18 else 0)
 
 
-def test_exact_integers_alone_give_the_same():
+def test_the_slow_way_alone_gives_the_same():
+    """Between other digits, which are no part of the number."""
     for x in random_doubles(29_914_006, 300):
         text = f"{abs(x):.30e}"
-        digits, exponent = text.split("e")
-        data = np.frombuffer(digits.encode(), np.uint8)
-        assert nearest(data, 0, len(data), int(exponent)) == float(text)
+        data = np.frombuffer(f"99{text}99".encode(), np.uint8)
+        assert nearest(data, 2, len(data) - 2) == float(text)
+
+
+def test_the_slow_way_in_threads_beside_python():
+    """It takes Python's lock, which the kernel has let go."""
+    text = "4.9e-324 2.4703282292062328e-324 9007199254740993.0000000000000000001"
+    data = np.frombuffer(text.encode(), np.uint8)
+    places = [(0, 8), (9, 32), (33, len(text))]
+    expected = [float(word) for word in text.split()]
+
+    def read(_):
+        return [nearest(data, *place) for place in places for _ in range(50)]
+
+    with ThreadPoolExecutor(8) as pool:
+        for found in pool.map(read, range(40)):
+            assert found == [x for x in expected for _ in range(50)]
 
 
 def test_products_of_words():

@@ -146,3 +146,18 @@ def test_given_texture_coordinates(tmp_path, scattered):
     assert np.array_equal(read_mesh(tmp_path / "a.obj").corner_uv, uv[scattered.faces])
     with pytest.raises(DimensionError, match=r"\(40, 2\)"):
         write_mesh(tmp_path / "a.obj", scattered, uv=uv[:-1])
+
+
+@pytest.mark.parametrize("newline", ["\n", "\r\n", " \r\n", "\r\r\n"])
+@pytest.mark.parametrize("last", ["", "\r", "f 1 2 3\r", "f 1 2"])
+def test_ends_of_lines(put, newline, last):
+    """Also at the very end, where no byte may be looked at beyond it."""
+    lines = ["v 0 0 0", "v 1 .5 0", "v 0 1e0 -2.25", "f 1 2 3", "f 3 2 1"]
+    content = newline.join([*lines, ""]) + last
+    if last == "f 1 2":
+        with pytest.raises(FileFormatError, match="three corners"):
+            read_mesh(put("a.obj", content))
+        return
+    mesh = read_mesh(put("a.obj", content))
+    assert mesh.vertices.tolist() == [[0, 0, 0], [1, 0.5, 0], [0, 1, -2.25]]
+    assert mesh.faces.tolist() == [[0, 1, 2], [2, 1, 0], *([[0, 1, 2]] if "f" in last else [])]

@@ -112,4 +112,5 @@ def test_a_polygon_that_says_more_corners_than_there_are_bytes_writes_no_further
         with pytest.raises(FileFormatError, match="expected an integer"):
             read_mesh(put("a.off", text))
         data, faces = np.frombuffer(text.encode(), np.uint8), np.empty((1, 3), np.int64)
-        off._faces.py_func(data, len(head), 3, 1, faces, 0, 0)  # Python looks at each index
+        with np.errstate(over="ignore"):  # Python looks at each index
+            off._faces.py_func(data, len(head), 3, 1, faces, 0, 0)

@@ -7,8 +7,9 @@ import struct
 import numpy as np
 import pytest
 
-from beltrami.errors import FileFormatError
+from beltrami.errors import FileFormatError, UnknownNameError
 from beltrami.io.registry import read_mesh, write_mesh
+from beltrami.mesh.mesh import Mesh
 
 ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 CODES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I"}
@@ -252,3 +253,109 @@ def test_rows_without_lists_that_long_lists_before_leave_no_room_for(put, form):
         with pytest.raises(FileFormatError, match="32 bytes for the 4 rows") as caught:
             read_mesh(put("a.ply", content[:-short]))
         assert caught.value.byte == len(content) - short
+
+
+VERTEX = ("float x", "float y", "float z")
+TURNS = [(0.5, 0.25, 1, 0, -3, 2), (0, 1, 2, 3, 4, 5, 6, 7)]
+
+
+def textured(faces, turns, kind="float"):
+    lists = ["list uchar int vertex_indices", f"list uchar {kind} texcoord", "int texnumber"]
+    rows = [(f, t, 0) for f, t in zip(faces, turns, strict=True)]
+    return [("vertex", list(VERTEX), SQUARE), ("face", lists, rows)]
+
+
+@pytest.mark.parametrize("kind", ["float", "double"])
+def test_texture_coordinates_of_faces(put, form, kind):
+    """A triangle and a square, which is cut from its first corner, as its coordinates are."""
+    mesh = read_mesh(put("a.ply", ply(form, textured([(0, 1, 2), (0, 1, 2, 3)], TURNS, kind))))
+    exact = [
+        [(0.5, 0.25), (1, 0), (-3, 2)],
+        [(0, 1), (2, 3), (4, 5)],
+        [(0, 1), (4, 5), (6, 7)],
+    ]
+    assert np.array_equal(mesh.corner_uv, exact)
+    assert dict(mesh.vertex_data) == {}
+    plain = read_mesh(put("b.ply", ply(form, textured([(0, 1, 2)], TURNS[:1], kind))))
+    assert np.array_equal(plain.corner_uv, exact[:1])
+
+
+def test_faces_without_texture_coordinates_have_none(put, form):
+    turns = [(), TURNS[0], (1, 2, 3)]
+    mesh = read_mesh(put("a.ply", ply(form, textured([(0, 1, 2)] * 3, turns))))
+    assert np.isnan(mesh.corner_uv[[0, 2]]).all()
+    assert np.array_equal(mesh.corner_uv[1].ravel(), TURNS[0])
+    assert read_mesh(put("a.ply", ply(form, textured([(0, 1, 2)], [()])))).corner_uv is None
+    whole = ply(form, textured([(0, 1, 2)] * 3, turns))
+    for cut in range(2, 20):
+        with pytest.raises(FileFormatError):
+            read_mesh(put("a.ply", whole[:-cut]))
+
+
+@pytest.mark.parametrize("names", [("texture_u", "texture_v"), ("u", "v"), ("t", "s")])
+def test_texture_coordinates_of_vertices(put, form, names):
+    rows = [(*x, 7, x[0] / 2, x[1] / 4) for x in SQUARE]
+    vertex = [*VERTEX, "uchar k", *(f"float {name}" for name in names)]
+    faces = square([(0, 1, 2, 3)])[1]
+    mesh = read_mesh(put("a.ply", ply(form, [("vertex", vertex, rows), faces])))
+    exact = np.array([(x / 2, y / 4) for x, y, _ in SQUARE])
+    exact = exact[:, ::-1] if names[0] == "t" else exact
+    assert np.array_equal(mesh.corner_uv, exact[mesh.faces])
+    assert list(mesh.vertex_data) == ["k"]
+    vertex = [p.replace("float t", "int t") for p in vertex] if names[0] == "t" else vertex[:-1]
+    rows = [row[: len(vertex)] if names[0] != "t" else (*row[:4], 1, 2.5) for row in rows]
+    alone = read_mesh(put("b.ply", ply(form, [("vertex", vertex, rows), faces])))
+    assert alone.corner_uv is None  # one of the two, or whole numbers, is a function
+    assert names[0] in alone.vertex_data
+
+
+def test_those_of_the_faces_count_more(put, form):
+    _, faces = textured([(0, 1, 2)], TURNS[:1])
+    vertex = ("vertex", [*VERTEX, "float s", "float t"], [(*x, 9, 9) for x in SQUARE])
+    mesh = read_mesh(put("a.ply", ply(form, [vertex, faces])))
+    assert np.array_equal(mesh.corner_uv.ravel(), TURNS[0])
+
+
+@pytest.mark.parametrize("digits", [np.float32, np.float64])
+def test_texture_coordinates_are_written(tmp_path, scattered, digits):
+    rng = np.random.default_rng(9)
+    uv = rng.normal(size=(scattered.n_faces, 3, 2)).astype(digits)
+    uv[3, 1] = np.nan
+    write_mesh(tmp_path / "a.ply", scattered, uv)
+    again = read_mesh(tmp_path / "a.ply")
+    assert np.array_equal(again.corner_uv, uv, equal_nan=True)
+    assert np.array_equal(again.faces, scattered.faces)
+    kind = b"float" if digits is np.float32 else b"double"
+    assert b"property list uchar %s texcoord" % kind in (tmp_path / "a.ply").read_bytes()
+    write_mesh(tmp_path / "b.ply", again)
+    assert (tmp_path / "b.ply").read_bytes() == (tmp_path / "a.ply").read_bytes()
+
+
+@pytest.mark.parametrize("names", [("u", "v"), ("v", "u"), ("s", "t"), ("texture_v", "texture_u")])
+def test_functions_of_such_names_stay_functions(tmp_path, scattered, names):
+    pair = {name: np.arange(scattered.n_vertices) / 7 for name in names}
+    mesh = Mesh(scattered.vertices, scattered.faces, pair)
+    write_mesh(tmp_path / "a.ply", mesh)
+    again = read_mesh(tmp_path / "a.ply")
+    assert again.corner_uv is None
+    assert list(again.vertex_data) == list(names)
+
+
+def test_a_texture_needs_a_format_that_holds_it(tmp_path, scattered):
+    with pytest.raises(UnknownNameError, match="texture"):
+        write_mesh(tmp_path / "a.ply", scattered, texture=np.zeros((2, 2, 3)))
+
+
+def test_meshlab_and_meshio_agree(tmp_path, scattered):
+    """What MeshLab writes for wedges is read, and it reads what is written."""
+    pymeshlab = pytest.importorskip("pymeshlab")
+    tidy = Mesh(np.random.default_rng(1).normal(size=(40, 3)), scattered.faces)
+    uv = np.random.default_rng(2).random((tidy.n_faces, 3, 2)).astype(np.float32)
+    write_mesh(tmp_path / "a.ply", tidy, uv)
+    theirs = pymeshlab.MeshSet()
+    theirs.load_new_mesh(str(tmp_path / "a.ply"))
+    found = theirs.current_mesh().wedge_tex_coord_matrix().reshape(-1, 3, 2)
+    np.testing.assert_allclose(found, uv, atol=1e-7)
+    for binary in (True, False):
+        theirs.save_current_mesh(str(tmp_path / "b.ply"), binary=binary, save_wedge_texcoord=True)
+        np.testing.assert_allclose(read_mesh(tmp_path / "b.ply").corner_uv, uv, atol=1e-6)

@@ -74,7 +74,7 @@ def test_what_cannot_be_written(tmp_path, scattered):
         with pytest.raises(error):
             write_mesh(old, mesh)
     with pytest.raises(UnknownNameError, match="texture coordinates"):
-        write_mesh(old, scattered, uv=np.zeros((40, 2)))
+        write_mesh(tmp_path / "a.off", scattered, uv=np.zeros((40, 2)))
     assert old.read_bytes() == b"old"
 
 

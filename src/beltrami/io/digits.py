@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from beltrami._arrays import read_only
-from beltrami._jit import kernel
+from beltrami._jit import part_of_kernels
 
 _1 = np.uint64(1)
 _8 = np.uint64(8)
@@ -21,7 +21,7 @@ _SECOND = np.uint64(0x0000271000000001)  # 10**4 and 1
 TEN_TO = read_only(10 ** np.arange(9, dtype=np.uint64))
 
 
-@kernel
+@part_of_kernels
 def eight(b: Any, position: int) -> Any:
     """Read up to eight digits: (value, how many), both unsigned; ``position + 8 <= b.size``.
 
@@ -31,7 +31,8 @@ def eight(b: Any, position: int) -> Any:
     Examples
     --------
     >>> import numpy as np
-    >>> value, count = eight(np.frombuffer(b"1234567,89", np.uint8), 0)
+    >>> from beltrami._jit import kernel
+    >>> value, count = kernel(eight)(np.frombuffer(b"1234567,89", np.uint8), 0)
     >>> int(value), int(count)
     (1234567, 7)
     """

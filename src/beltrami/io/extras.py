@@ -24,7 +24,7 @@ from beltrami.mesh.mesh import Mesh
 
 _MESHIO = (".vtk", ".vtu", ".msh", ".mesh", ".inp")
 _GLTF = (".glb", ".gltf")
-_UV = "texture coordinates of a package"  # among the vertex data, until the mesh is made
+_UV = "texture coordinates of corners"  # among the vertex data, until the mesh is made
 _FREESURFER = (
     ".pial", ".white", ".inflated", ".sphere", ".reg", ".orig", ".smoothwm", ".nofix", ".graymid",
     ".midthickness",
@@ -67,11 +67,9 @@ def _checked(place: Path, vertices: Any, faces: Any, data: dict[str, Any]) -> Me
     outside = int(first_outside(corners.ravel(), len(vertices)))
     if outside >= 0:
         raise FileFormatError(place, f"expected indices of vertices in triangle {outside // 3}")
+    uv = data.pop(_UV, None)
     kept = {name: a for name, a in data.items() if a.dtype.kind in "biuf" and a.ndim in (1, 2)}
     kept = {name: a for name, a in kept.items() if len(a) == len(vertices)}
-    uv = kept.pop(_UV, None)
-    if uv is not None:
-        uv = np.where(np.isfinite(uv), uv, np.nan)[corners] if uv.shape[1:] == (2,) else None
     return Mesh(vertices, corners, kept, uv)
 
 
@@ -120,8 +118,10 @@ def _by_meshio(meshio: Any, place: Path) -> Any:
 
 
 def _read_gltf(place: Path, _room: Room) -> Any:
-    vertices, faces, uv = read_scene(place)
-    return vertices, faces, {} if uv is None else {_UV: uv}
+    found = read_scene(place)
+    told = {"normal": found.normal, "color": found.color, _UV: found.corner_uv}
+    known = {name: array for name, array in told.items() if np.isfinite(array).any()}
+    return found.vertices, found.faces, known
 
 
 def encode(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:

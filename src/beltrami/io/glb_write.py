@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beltrami._arrays import Floats, Integers, require_finite
+from beltrami.io.light import light_of
 from beltrami.io.obj_write import vertex_colours
 from beltrami.io.picture import Picture, png_bytes
 from beltrami.mesh.mesh import Mesh
@@ -61,7 +62,7 @@ def glb_bytes(
     if turns is not None:
         attributes["TEXCOORD_0"] = file.add(np.stack([turns[:, 0], 1 - turns[:, 1]], axis=1))
     if texture is None and colours.shape[1]:
-        attributes["COLOR_0"] = file.add(_light(colours)[copies])
+        attributes["COLOR_0"] = file.add(light_of(colours)[copies])
     look: dict[str, Any] = {"metallicFactor": 0.0, "roughnessFactor": 1.0}
     rest: dict[str, Any] = {}
     if texture is not None:
@@ -157,11 +158,3 @@ def _normals(mesh: Mesh, vertices: Floats) -> Floats:
     known = np.isfinite(length) & (length > 0)
     scaled = held / np.where(known, length, 1.0)[:, None]
     return np.where(known[:, None], scaled, [0.0, 0.0, 1.0])
-
-
-def _light(colours: Floats) -> Floats:
-    """Return the light of sRGB values in [0, 1] (IEC 61966-2-1); opacity stays."""
-    known = np.clip(colours, 0.0, 1.0)
-    bright = ((known + 0.055) / 1.055) ** 2.4
-    light = np.where(known <= 0.04045, known / 12.92, bright)
-    return np.hstack([light[:, :3], known[:, 3:]])

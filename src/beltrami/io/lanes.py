@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from beltrami._jit import kernel
+from beltrami._jit import part_of_kernels
 from beltrami.io.digits import eight
 from beltrami.io.numbers import read_number
 
-_SPACE, _NEWLINE, _V = 32, 10, 118
+_SPACE, _NEWLINE, _RETURN, _V = 32, 10, 13, 118
 
 
-@kernel
+@part_of_kernels
 def plain_vertices(b: Any, p: int, end: int, x: Any, n: int) -> Any:
     r"""Read lines ``v x y z`` with single blanks as long as there are such: (position, n).
 
@@ -22,32 +22,32 @@ def plain_vertices(b: Any, p: int, end: int, x: Any, n: int) -> Any:
     Examples
     --------
     >>> import numpy as np
+    >>> from beltrami._jit import kernel
     >>> b, x = np.frombuffer(b"v 1 2 .5\nv 1 2 3 4\n", np.uint8), np.empty((9, 3))
-    >>> plain_vertices(b, 0, len(b), x, 0)
+    >>> kernel(plain_vertices)(b, 0, len(b), x, 0)
     (9, 1)
     """
     while n < x.shape[0] and p + 1 < end and b[p] == _V and b[p + 1] == _SPACE:
-        x0, q = read_number(b, p + 2, end)
-        if q == p + 2 or q >= end or b[q] != _SPACE:
-            break
-        x1, r = read_number(b, q + 1, end)
-        if r == q + 1 or r >= end or b[r] != _SPACE:
-            break
-        x2, q = read_number(b, r + 1, end)
-        if q == r + 1 or q >= end or b[q] != _NEWLINE:
-            break
-        total = x0 + x1 + x2
+        start, total = p + 2, 0.0
+        for c in range(3):
+            value, q = read_number(b, start, end)
+            if q == start or q >= end:
+                return p, n
+            if b[q] != (_NEWLINE if c == 2 else _SPACE):
+                if c < 2 or b[q] != _RETURN or q + 1 >= end or b[q + 1] != _NEWLINE:
+                    return p, n
+                q += 1
+            x[n, c] = value
+            total += value
+            start = q + 1
         if total - total != 0.0:  # NaN or infinite, or a sum that overflows
             break
-        x[n, 0] = x0
-        x[n, 1] = x1
-        x[n, 2] = x2
         n += 1
-        p = q + 1
+        p = start
     return p, n
 
 
-@kernel
+@part_of_kernels
 def plain_faces(b: Any, p: int, tag: int, base: int, limit: int, faces: Any, m: int) -> Any:
     r"""Read lines of a tag and i j k, from base to limit, with single blanks: (position, m).
 
@@ -56,8 +56,9 @@ def plain_faces(b: Any, p: int, tag: int, base: int, limit: int, faces: Any, m: 
     Examples
     --------
     >>> import numpy as np
+    >>> from beltrami._jit import kernel
     >>> b, faces = np.frombuffer(b"f 1 2 3\nf 1 2 3 4\n", np.uint8), np.empty((9, 3), int)
-    >>> plain_faces(b, 0, ord("f"), 1, 4, faces, 0)
+    >>> kernel(plain_faces)(b, 0, ord("f"), 1, 4, faces, 0)
     (8, 1)
     """
     end = b.size
@@ -69,8 +70,12 @@ def plain_faces(b: Any, p: int, tag: int, base: int, limit: int, faces: Any, m: 
         if q >= end or b[q] != _SPACE:
             break
         k, q = _index(b, q + 1, end, base, limit)
-        if q >= end or b[q] != _NEWLINE:
+        if q >= end:
             break
+        if b[q] != _NEWLINE:
+            if b[q] != _RETURN or q + 1 >= end or b[q + 1] != _NEWLINE:
+                break
+            q += 1
         faces[m, 0] = i
         faces[m, 1] = j
         faces[m, 2] = k
@@ -79,7 +84,7 @@ def plain_faces(b: Any, p: int, tag: int, base: int, limit: int, faces: Any, m: 
     return p, m
 
 
-@kernel
+@part_of_kernels
 def _index(b: Any, p: int, end: int, base: int, limit: int) -> Any:
     """Read an index of base..limit: (index from 0, position), or ``end`` where there is none."""
     if p + 8 > end:  # the last bytes of the file

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from beltrami._jit import kernel
+from beltrami._jit import part_of_kernels
 from beltrami.io.decimal import nearest
 from beltrami.io.digits import TEN_TO, eight
 from beltrami.io.powers import TEN
@@ -24,7 +24,7 @@ _DOT, _MINUS, _PLUS, _BACKSLASH = 46, 45, 43, 92
 _FAR = 100_000  # an exponent that no number of digits in a file brings back into range
 
 
-@kernel
+@part_of_kernels
 def read_number(b: Any, p: Any, end: int) -> Any:
     """Read a decimal number at p: (value, position after it).
 
@@ -35,8 +35,9 @@ def read_number(b: Any, p: Any, end: int) -> Any:
     Examples
     --------
     >>> import numpy as np
+    >>> from beltrami._jit import kernel
     >>> line = np.frombuffer(b"-0.5e3 1,5", np.uint8)
-    >>> read_number(line, 0, len(line)), read_number(line, 7, len(line))
+    >>> kernel(read_number)(line, 0, len(line)), kernel(read_number)(line, 7, len(line))
     ((-500.0, 6), (0.0, 7))
     """
     start = p
@@ -81,11 +82,11 @@ def read_number(b: Any, p: Any, end: int) -> Any:
     else:
         x = scaled(w, q) if digits <= 19 else math.nan
         if math.isnan(x):
-            x = _rounded(b, first, stop, exponent)
+            x = _rounded(b, first, stop, exponent, p)
     return (-x if negative else x), p
 
 
-@kernel
+@part_of_kernels
 def _append(b: Any, p: Any, end: int, w: Any) -> Any:
     """Append the digits at p to the integer w: (integer modulo 2**64, position after them)."""
     while p + 8 <= end:
@@ -103,7 +104,7 @@ def _append(b: Any, p: Any, end: int, w: Any) -> Any:
     return w, p
 
 
-@kernel
+@part_of_kernels
 def _exponent(b: Any, p: int, end: int) -> Any:
     """Read the digits after an "e": (exponent, position), the position -1 if there are none."""
     negative = False
@@ -119,7 +120,7 @@ def _exponent(b: Any, p: int, end: int) -> Any:
     return (-exponent if negative else exponent), (p if p > first else -1)
 
 
-@kernel
+@part_of_kernels
 def _special(b: Any, p: int, end: int, start: int, negative: bool) -> Any:
     """Read "nan", "inf" or "infinity", in any case."""
     stop = p
@@ -140,8 +141,8 @@ def _special(b: Any, p: int, end: int, start: int, negative: bool) -> Any:
     return 0.0, start
 
 
-@kernel
-def _rounded(b: Any, first: int, stop: int, exponent: int) -> float:
+@part_of_kernels
+def _rounded(b: Any, first: int, stop: int, exponent: int, end: int) -> float:
     """Round a number that one multiplication does not: by 19 digits if they decide, else by all."""
     w = _0
     kept = 0
@@ -165,11 +166,11 @@ def _rounded(b: Any, first: int, stop: int, exponent: int) -> float:
                 q += 1
     value = scaled(w, q)
     if math.isnan(value) or (cut and scaled(w + _1, q) != value):
-        return nearest(b, first, stop, exponent)
+        return nearest(b, first, end)
     return value
 
 
-@kernel
+@part_of_kernels
 def read_integer(b: Any, p: Any, end: int) -> Any:
     """Read an integer of at most 18 digits at p: (value, position after the last digit).
 
@@ -178,7 +179,8 @@ def read_integer(b: Any, p: Any, end: int) -> Any:
     Examples
     --------
     >>> import numpy as np
-    >>> read_integer(np.frombuffer(b"-12/5", np.uint8), 0, 5)
+    >>> from beltrami._jit import kernel
+    >>> kernel(read_integer)(np.frombuffer(b"-12/5", np.uint8), 0, 5)
     (-12, 3)
     """
     start = p
@@ -199,14 +201,15 @@ def read_integer(b: Any, p: Any, end: int) -> Any:
     return (-value if negative else value), p
 
 
-@kernel
+@part_of_kernels
 def skip_blanks(b: Any, p: int, end: int) -> int:
     r"""Return the position of the next byte at or after p that is no blank; a newline is none.
 
     Examples
     --------
     >>> import numpy as np
-    >>> skip_blanks(np.frombuffer(b"1 \t\r 2", np.uint8), 1, 6)
+    >>> from beltrami._jit import kernel
+    >>> kernel(skip_blanks)(np.frombuffer(b"1 \t\r 2", np.uint8), 1, 6)
     5
     """
     while p < end and b[p] <= 32 and b[p] != 10:
@@ -214,16 +217,17 @@ def skip_blanks(b: Any, p: int, end: int) -> int:
     return p
 
 
-@kernel
+@part_of_kernels
 def next_line(b: Any, p: int, end: int) -> int:
     r"""Return the position after the next newline at or after p, or ``end``.
 
     Examples
     --------
     >>> import numpy as np
-    >>> next_line(np.frombuffer(b"# no\n1", np.uint8), 0, 6)
+    >>> from beltrami._jit import kernel
+    >>> kernel(next_line)(np.frombuffer(b"# no\n1", np.uint8), 0, 6)
     5
     """
     while p < end and b[p] != 10:
         p += 1
-    return min(p + 1, end)
+    return p + 1 if p < end else end

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import read_only
+from beltrami._arrays import Floats, read_only
 from beltrami.errors import FileFormatError, MeshError
 from beltrami.io import obj_kernel as lines
-from beltrami.io.source import Source, mark_length, trimmed
+from beltrami.io.source import POINTS_ONLY, Source, mark_length, trimmed
 from beltrami.mesh.mesh import Mesh
 
 _NO_LIMIT = 1 << 62
@@ -50,7 +50,10 @@ def read_obj(source: Source) -> Mesh:
     n, t, m = (int(state[i]) for i in (lines.VERTICES, lines.TEXTURES, lines.FACES))
     if n == 0 or m == 0:
         missing = "vertices (lines 'v x y z')" if n == 0 else "faces (lines 'f i j k')"
-        raise FileFormatError(source.path, f"expected {missing}, found none in the whole file")
+        hint = POINTS_ONLY if n else ""
+        raise FileFormatError(
+            source.path, f"expected {missing}, found none in the whole file{hint}"
+        )
     x, rgba, uv, faces, turns = arrays
     faces, turns = trimmed(faces, m), trimmed(turns, m)
     textured = bool(state[lines.TEXTURED])
@@ -73,11 +76,21 @@ def read_obj(source: Source) -> Mesh:
         raise
 
 
+def obj_points(source: Source) -> Floats:
+    """Read the vertices alone, (n, 3); faces are checked, but need not be there."""
+    state = np.zeros(7, np.int64)
+    x = _fill(source, state, np.full(2, _NO_LIMIT))[0]
+    if state[lines.VERTICES] == 0:
+        raise FileFormatError(source.path, "expected vertices (lines 'v x y z'), found none")
+    return trimmed(x, int(state[lines.VERTICES]))
+
+
 def _fill(source: Source, state: NDArray[np.int64], limits: NDArray[np.int64]) -> Any:
     """Scan the whole file into arrays that grow when they are full."""
     rows = source.size // _BYTES_OF_LINE + 16
     x, rgba, uv = np.empty((rows, 3)), np.empty((rows, 4)), np.empty((rows, 2))
     faces, turns = np.empty((rows, 3), np.int64), np.empty((rows, 3), np.int64)
+    row = np.empty(7)
     full = {
         lines.MORE_VERTICES: (x, rgba),
         lines.MORE_TEXTURES: (uv,),
@@ -85,11 +98,11 @@ def _fill(source: Source, state: NDArray[np.int64], limits: NDArray[np.int64]) -
     }
     for start, block in source.blocks():
         state[lines.POSITION] = 0 if start else mark_length(block)
-        status = lines.scan(block, state, limits, x, rgba, uv, faces, turns)
+        status = lines.scan(block, state, limits, row, x, rgba, uv, faces, turns)
         while status in full:
             for array in full[status]:
                 trimmed(array, 2 * len(array))
-            status = lines.scan(block, state, limits, x, rgba, uv, faces, turns)
+            status = lines.scan(block, state, limits, row, x, rgba, uv, faces, turns)
         if status != lines.DONE:
             expected = _EXPECTED[status].format(*(count_or_all(k) for k in limits))
             raise source.unexpected(start + int(state[lines.FAULT]), expected)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from beltrami._jit import kernel
+from beltrami._jit import kernel, part_of_kernels
 from beltrami.io.lanes import plain_faces, plain_vertices
 from beltrami.io.numbers import next_line, read_integer, read_number, skip_blanks
 
@@ -17,18 +17,26 @@ POSITION, VERTICES, TEXTURES, FACES, COLOURS, TEXTURED, FAULT = range(7)
 DONE, MORE_VERTICES, MORE_TEXTURES, MORE_FACES = range(4)
 NOT_FINITE, NOT_INTEGER, NO_VERTEX, NO_TEXTURE, TOO_FEW, COLUMNS = range(4, 10)
 
-_NEWLINE, _HASH, _SLASH, _BACKSLASH, _F = 10, 35, 47, 92, 102
+_NEWLINE, _HASH, _SLASH, _BACKSLASH, _F, _T, _V = 10, 35, 47, 92, 102, 116, 118
 
 
 @kernel
 def scan(
-    b: Any, state: Any, limits: Any, x: Any, rgba: Any, uv: Any, faces: Any, turns: Any
+    b: Any,
+    state: Any,
+    limits: Any,
+    row: Any,
+    x: Any,
+    rgba: Any,
+    uv: Any,
+    faces: Any,
+    turns: Any,
 ) -> int:
     """Read lines until the end, a full array or a fault; return how it ended.
 
     ``x`` (n, 3), ``rgba`` (n, 4), ``uv`` (t, 2), ``faces`` and ``turns`` (m, 3) are filled;
     ``turns`` holds the texture index of each corner, -1 without. Indices must stay below
-    ``limits``: (vertices, texture coordinates).
+    ``limits``: (vertices, texture coordinates). ``row`` has room for the seven numbers of a line.
     """
     end = b.size
     p = state[POSITION]
@@ -40,24 +48,28 @@ def scan(
         p = skip_blanks(b, p, end)
         state[POSITION] = p
         status = DONE
-        if p + 1 < end and b[p] == 118 and b[p + 1] <= 32:
-            p, status = _vertex(b, p + 1, end, state, x, rgba)
-        elif p + 1 < end and b[p] == 102 and b[p + 1] <= 32:
+        texture = p + 2 < end and b[p] == _V and b[p + 1] == _T and b[p + 2] <= 32
+        if p + 1 < end and b[p] == _F and b[p + 1] <= 32:
             p, status = _face(b, p + 1, end, state, limits, faces, turns)
-        elif p + 2 < end and b[p] == 118 and b[p + 1] == 116 and b[p + 2] <= 32:
-            p, status = _texture(b, p + 2, end, state, uv)
-        elif p < end and b[p] == _HASH:
-            p = next_line(b, p, end)
-        else:
+        elif texture or (p + 1 < end and b[p] == _V and b[p + 1] <= 32):
+            most = uv.shape[1] + 1 if texture else row.size
+            p, columns, status = _row(b, p + 2 if texture else p + 1, end, row, most)
+            if status == DONE and texture:
+                status = _keep_texture(row, columns, state, uv)
+            elif status == DONE:
+                status = _keep_vertex(row, columns, state, x, rgba)
+        elif p < end and b[p] != _HASH:
             p = _statement(b, p, end)
+            continue
         if status != DONE:
             state[FAULT] = p
             return status
+        p = next_line(b, p, end)
     state[POSITION] = end
     return DONE
 
 
-@kernel
+@part_of_kernels
 def _statement(b: Any, p: int, end: int) -> int:
     """Skip a line that is not read, with the lines that continue it."""
     while True:
@@ -69,7 +81,7 @@ def _statement(b: Any, p: int, end: int) -> int:
             return p
 
 
-@kernel
+@part_of_kernels
 def _gap(b: Any, p: int, end: int) -> int:
     """Skip blanks, and the end of a line that is continued."""
     p = skip_blanks(b, p, end)
@@ -77,103 +89,89 @@ def _gap(b: Any, p: int, end: int) -> int:
         q = skip_blanks(b, p + 1, end)
         if q < end and b[q] != _NEWLINE:
             return p
-        p = skip_blanks(b, min(q + 1, end), end)
+        p = skip_blanks(b, q + 1 if q < end else end, end)
     return p
 
 
-@kernel
-def _ended(b: Any, p: int, end: int) -> bool:
-    return p >= end or b[p] == _NEWLINE or b[p] == _HASH
-
-
-@kernel
-def _vertex(b: Any, p: int, end: int, state: Any, x: Any, rgba: Any) -> Any:
-    """Read x y z [w] or x y z r g b [a]."""
+@part_of_kernels
+def _keep_vertex(row: Any, columns: int, state: Any, x: Any, rgba: Any) -> int:
+    """Keep x y z [w] or x y z r g b [a]; a weight is left out."""
     n = state[VERTICES]
     if n == x.shape[0]:
-        return p, MORE_VERTICES
-    for c in range(3):
-        p = _gap(b, p, end)
-        value, q = read_number(b, p, end)
-        if q == p or value - value != 0.0:
-            return p, NOT_FINITE
-        x[n, c] = value
-        p = q
-    p = skip_blanks(b, p, end)
-    if not _ended(b, p, end):
-        p, status = _colour(b, p, end, state, rgba, n)
-        if status != DONE:
-            return p, status
-    elif state[COLOURS]:
-        rgba[n] = np.nan
-    state[VERTICES] = n + 1
-    return next_line(b, p, end), DONE
-
-
-@kernel
-def _colour(b: Any, p: int, end: int, state: Any, rgba: Any, n: int) -> Any:
-    """Read what follows x y z: a weight, which is left out, or three or four colours."""
-    rgba[n] = np.nan
-    columns = 0
-    while True:
-        p = _gap(b, p, end)
-        if _ended(b, p, end):
-            break
-        value, q = read_number(b, p, end)
-        if q == p or value - value != 0.0:
-            return p, NOT_FINITE
-        if columns == 4:
-            return p, COLUMNS
-        rgba[n, columns] = value
-        columns += 1
-        p = q
-    if columns == 2:
-        return p, COLUMNS
+        return MORE_VERTICES
     if columns < 3:
-        rgba[n] = np.nan
-    else:
-        if state[COLOURS] == 0:
-            rgba[:n] = np.nan
-        state[COLOURS] = max(state[COLOURS], columns)
-    return p, DONE
+        return NOT_FINITE
+    if columns == 5:
+        return COLUMNS
+    for c in range(3):
+        x[n, c] = row[c]
+    colours = columns - 3 if columns > 5 else 0
+    if colours and state[COLOURS] == 0:
+        for i in range(n):
+            for c in range(4):
+                rgba[i, c] = np.nan
+    if colours > state[COLOURS]:
+        state[COLOURS] = colours
+    if state[COLOURS]:
+        for c in range(4):
+            rgba[n, c] = row[3 + c] if c < colours else np.nan
+    state[VERTICES] = n + 1
+    return DONE
 
 
-@kernel
-def _texture(b: Any, p: int, end: int, state: Any, uv: Any) -> Any:
-    """Read u [v [w]]."""
+@part_of_kernels
+def _keep_texture(row: Any, columns: int, state: Any, uv: Any) -> int:
+    """Keep u [v [w]]."""
     t = state[TEXTURES]
     if t == uv.shape[0]:
-        return p, MORE_TEXTURES
-    uv[t, 1] = 0.0
-    c = 0
-    while c < 3:
-        p = _gap(b, p, end)
-        if c > 0 and _ended(b, p, end):
-            break
-        value, q = read_number(b, p, end)
-        if q == p or value - value != 0.0:
-            return p, NOT_FINITE
-        if c < 2:
-            uv[t, c] = value
-        p = q
-        c += 1
-    p = _gap(b, p, end)
-    if not _ended(b, p, end):
-        return p, COLUMNS
+        return MORE_TEXTURES
+    if columns == 0:
+        return NOT_FINITE
+    uv[t, 0] = row[0]
+    uv[t, 1] = row[1] if columns > 1 else 0.0
     state[TEXTURES] = t + 1
-    return next_line(b, p, end), DONE
+    return DONE
 
 
-@kernel
+@part_of_kernels
+def _row(b: Any, p: int, end: int, row: Any, most: int) -> Any:
+    """Read the numbers of a line: (position, how many, status)."""
+    columns = 0
+    while True:
+        while p < end and b[p] <= 32 and b[p] != _NEWLINE:
+            p += 1
+        if p >= end or b[p] == _NEWLINE or b[p] == _HASH:
+            return p, columns, DONE
+        value, q = read_number(b, p, end)
+        if q == p and b[p] == _BACKSLASH:
+            p = _gap(b, p, end)
+            if p > q:
+                continue
+        if columns == most:
+            return p, columns, COLUMNS
+        if q == p or value - value != 0.0:
+            return p, columns, NOT_FINITE
+        row[columns] = value
+        columns += 1
+        p = q
+
+
+@part_of_kernels
 def _face(b: Any, p: int, end: int, state: Any, limits: Any, faces: Any, turns: Any) -> Any:
     """Read the corners v, v/vt, v//vn or v/vt/vn, and cut the polygon from its first corner."""
     m = state[FACES]
     corners = 0
     first = second = first_turn = second_turn = 0
-    p = _gap(b, p, end)
-    while not _ended(b, p, end):
+    while True:
+        while p < end and b[p] <= 32 and b[p] != _NEWLINE:
+            p += 1
+        if p >= end or b[p] == _NEWLINE or b[p] == _HASH:
+            break
         i, q = read_integer(b, p, end)
         if q == p:
+            p = _gap(b, p, end)
+            if p > q:
+                continue
             return p, NOT_INTEGER
         i = i + state[VERTICES] if i < 0 else i - 1
         if i < 0 or i >= limits[0]:
@@ -184,7 +182,9 @@ def _face(b: Any, p: int, end: int, state: Any, limits: Any, faces: Any, turns: 
             if turn < -1 or turn >= limits[1]:
                 return p, NO_TEXTURE
             if turn >= 0 and state[TEXTURED] == 0:
-                turns[:m] = -1
+                for before in range(m):
+                    for c in range(3):
+                        turns[before, c] = -1
                 state[TEXTURED] = 1
         if q < end and b[q] > 32 and b[q] != _BACKSLASH:
             return p, NOT_INTEGER
@@ -203,14 +203,14 @@ def _face(b: Any, p: int, end: int, state: Any, limits: Any, faces: Any, turns: 
             m += 1
         second, second_turn = i, turn
         corners += 1
-        p = _gap(b, q, end)
+        p = q
     if corners < 3:
         return p, TOO_FEW
     state[FACES] = m
-    return next_line(b, p, end), DONE
+    return p, DONE
 
 
-@kernel
+@part_of_kernels
 def _turn(b: Any, p: int, end: int, count: int) -> Any:
     """Read vt, /vn or vt/vn after the slash: (index from 0, position); -1 is none, -2 wrong."""
     turn = -1

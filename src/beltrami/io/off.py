@@ -8,16 +8,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import read_only
-from beltrami._jit import kernel
+from beltrami._arrays import Floats, read_only
+from beltrami._jit import kernel, part_of_kernels
 from beltrami.io.lanes import plain_faces
 from beltrami.io.numbers import next_line, read_integer, read_number, skip_blanks
-from beltrami.io.source import Source, mark_length, trimmed
+from beltrami.io.source import POINTS_ONLY, Source, mark_length, trimmed
 from beltrami.mesh.mesh import Mesh
 
 _DONE, _NOT_FINITE, _COLUMNS, _NOT_INTEGER, _TOO_FEW, _NO_VERTEX, _MORE, _LEFT = range(8)
 _HEADER = 4096  # bytes searched at a time for the counts
-_HASH, _THREE = 35, 51
+_NEWLINE, _HASH, _THREE = 10, 35, 51
+_NO_DATA = re.compile(rb"(?:[\x00-\x09\x0b-\x20]*(?:#[^\n]*)?\n)*[\x00-\x09\x0b-\x20]*")
 
 
 def read_off(source: Source) -> Mesh:
@@ -43,19 +44,35 @@ def read_off(source: Source) -> Mesh:
     n, m = counts
     for count, what in ((n, "vertices"), (m, "faces")):
         if count == 0:
-            raise source.at_line(max(start - 1, 0), f"expected {what}, found the count 0")
-    if 6 * n + 8 * m > len(source.data) - start + 1:  # the shortest lines there are
-        raise source.at_line(
-            max(start - 1, 0),
-            f"expected {n} vertices and {m} faces, at least {6 * n + 8 * m} bytes, found "
-            f"{len(source.data) - start}: the file is cut off or its counts are wrong",
-        )
+            hint = POINTS_ONLY if n else ""
+            raise source.at_line(max(start - 1, 0), f"expected {what}, found the count 0{hint}")
+    _require_room(source, start, n, m)
     extra = 3 * ("N" in keyword)
     rows, columns, position = _read_vertices(source, start, n, 3 + extra, keyword)
     faces = _read_faces(source, position, n, m)
     data = _vertex_data(rows[:, 3:columns], keyword)
     vertices = rows if rows.shape[1] == 3 else rows[:, :3].copy()
     return Mesh(read_only(vertices), read_only(faces), data)
+
+
+def off_points(source: Source) -> Floats:
+    """Read the vertices alone, (n, 3); nothing after them is looked at."""
+    keyword, (n, m), start = _header(source)
+    if n == 0:
+        raise source.at_line(max(start - 1, 0), "expected vertices, found the count 0")
+    _require_room(source, start, n, m)
+    rows, _, _ = _read_vertices(source, start, n, 3 + 3 * ("N" in keyword), keyword)
+    return rows[:, :3].copy()
+
+
+def _require_room(source: Source, start: int, n: int, m: int) -> None:
+    """Refuse counts that the file is too short for, before anything is allocated."""
+    if 6 * n + 8 * m > len(source.data) - start + 1:  # the shortest lines there are
+        raise source.at_line(
+            max(start - 1, 0),
+            f"expected {n} vertices and {m} faces, at least {6 * n + 8 * m} bytes, found "
+            f"{len(source.data) - start}: the file is cut off or its counts are wrong",
+        )
 
 
 def _header(source: Source) -> tuple[str, tuple[int, int], int]:
@@ -82,23 +99,32 @@ def _read_vertices(
     source: Source, start: int, n: int, least: int, keyword: str
 ) -> tuple[NDArray[np.float64], int, int]:
     """Read n lines of as many numbers as the first has: (array, columns, position)."""
-    width, position, status = _count_columns(source.data, start)
+    width, position = _first_row(source, start)
     colours = keyword.startswith("C") or "STC" in keyword
     texture = 2 * keyword.startswith("ST")
     allowed = [least + texture + c for c in ((3, 4) if colours else (0,))]
-    if status == _DONE and width not in allowed:
+    if width not in allowed:
         wanted = " or ".join(map(str, allowed))
         raise source.at_line(
             position, f"expected {wanted} numbers for a vertex of {keyword}, found {width}"
         )
-    rows = np.empty((n, max(width, 3)))
-    if status == _DONE:
-        position, status = _vertices(source.data, start, rows)
+    rows = np.empty((n, width))
+    position, status = _vertices(source.data, start, rows)
     if status == _COLUMNS:
         raise source.unexpected(position, f"{width} numbers for a vertex, as on the lines before")
     if status != _DONE:
         raise source.unexpected(position, "a finite number (the coordinate of a vertex)")
     return rows, width, position
+
+
+def _first_row(source: Source, start: int) -> tuple[int, int]:
+    """Count the words on the next line of data: (how many, where it starts)."""
+    found = _NO_DATA.match(source.data.data, start)
+    position = found.end() if found else start
+    rest = source.data[position:]
+    newline = np.flatnonzero(rest[:_HEADER] == _NEWLINE)
+    line = rest[: newline[0] if len(newline) else _HEADER].tobytes().split(b"#")[0]
+    return len(line.split()), position
 
 
 def _read_faces(source: Source, position: int, n: int, m: int) -> NDArray[np.int64]:
@@ -134,7 +160,7 @@ def _vertex_data(rows: NDArray[np.float64], keyword: str) -> dict[str, NDArray[A
     return {name: read_only(column.copy()) for name, column in data.items()}
 
 
-@kernel
+@part_of_kernels
 def _next_data(b: Any, p: int) -> int:
     """Skip blank lines and comments."""
     end = b.size
@@ -146,23 +172,9 @@ def _next_data(b: Any, p: int) -> int:
     return end
 
 
-@kernel
+@part_of_kernels
 def _ended(b: Any, p: int) -> bool:
     return p >= b.size or b[p] == 10 or b[p] == _HASH
-
-
-@kernel
-def _count_columns(b: Any, p: int) -> Any:
-    """Count the numbers on the next line of data: (count, position of the line, status)."""
-    start = p = _next_data(b, p)
-    width = 0
-    while not _ended(b, p):
-        _, q = read_number(b, p, b.size)
-        if q == p:
-            return width, p, _NOT_FINITE
-        width += 1
-        p = skip_blanks(b, q, b.size)
-    return width, start, _DONE
 
 
 @kernel

@@ -7,14 +7,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import Integers, read_only
+from beltrami._arrays import Floats, Integers, read_only
 from beltrami.errors import FileFormatError, MeshError
+from beltrami.io import ply_texture
 from beltrami.io.faces import fan, first_outside, unroll
 from beltrami.io.ply_binary import read_binary
 from beltrami.io.ply_data import grouped
 from beltrami.io.ply_header import Element, read_header
 from beltrami.io.ply_text import next_token, read_text
-from beltrami.io.source import Source
+from beltrami.io.source import POINTS_ONLY, Source
 from beltrami.mesh.mesh import Mesh
 
 _NONE = np.zeros((0, 3), np.int64)
@@ -26,7 +27,9 @@ def read_ply(source: Source) -> Mesh:
 
     Scalar properties of the vertices become vertex data with the type they have in the file:
     red, green, blue and alpha together "color"; nx, ny, nz "normal"; name_0, name_1, ... "name".
-    Lists of vertices, properties of faces and other elements are left out.
+    Texture coordinates become ``corner_uv``: the list texcoord of each face (MeshLab's, u and v
+    of each corner), or else texture_u and texture_v, u and v, or s and t of the vertices. Other
+    lists, properties of faces and elements are left out.
 
     Raises
     ------
@@ -47,18 +50,30 @@ def read_ply(source: Source) -> Mesh:
     vertices: NDArray[np.float64] | None = None
     data: dict[str, NDArray[Any]] = {}
     pieces: list[tuple[Integers, int]] = []
+    turns: list[Floats | None] = []
+    by_vertex: Floats | None = None
     for element in header.elements:
         first = position
         wanted = _wanted(source, element)
-        scalars, found, position = (
-            read_binary(source, position, element, header.order, wanted)
+        textured = _textured(element)
+        rows = (
+            read_binary(source, position, element, header.order, wanted, textured)
             if header.order
-            else read_text(source, position, element, wanted)
+            else read_text(source, position, element, wanted, textured)
         )
+        position = rows.position
         if element.name == "vertex":
+            scalars = dict(rows.scalars)
+            by_vertex = ply_texture.of_vertices(scalars)
             vertices, data = _split(source, scalars, first)
-        elif found is not None:
-            pieces.append((_triangles(source, element, *found, first), first))
+        elif rows.corners is not None:
+            pieces.append((_triangles(source, element, *rows.corners, first), first))
+            sizes = rows.corners[1]
+            turns.append(
+                None
+                if rows.turns is None
+                else ply_texture.of_faces(sizes, element.rows, *rows.turns)
+            )
     if not header.order:
         position = int(next_token(source.data, position))
     if position < len(source.data):
@@ -67,7 +82,47 @@ def read_ply(source: Source) -> Mesh:
             f"expected the end of the file after the last row, found "
             f"{len(source.data) - position} more bytes: the counts are wrong",
         )
-    return _assembled(source, vertices, data, pieces)
+    mesh = _assembled(source, vertices, data, pieces)
+    uv = _joined(pieces, turns)
+    if uv is None and by_vertex is not None:
+        uv = by_vertex[mesh.faces]
+    return mesh if uv is None else Mesh(mesh.vertices, mesh.topology, mesh.vertex_data, uv)
+
+
+def ply_points(source: Source) -> Floats:
+    """Read the vertices alone, (n, 3); nothing after them is looked at."""
+    header = read_header(source)
+    position = header.start
+    for element in header.elements:
+        rows = (
+            read_binary(source, position, element, header.order, None, None)
+            if header.order
+            else read_text(source, position, element, None, None)
+        )
+        if element.name == "vertex" and element.rows:
+            return _split(source, rows.scalars, position)[0]
+        position = rows.position
+    raise FileFormatError(source.path, "expected vertices (an element 'vertex'), found none")
+
+
+def _textured(element: Element) -> str | None:
+    """Return the name of the list of texture coordinates of a face."""
+    for p in element.properties:
+        if element.name == "face" and p.name in ply_texture.LISTS and p.length is not None:
+            return p.name if p.type[0] == "f" else None
+    return None
+
+
+def _joined(pieces: list[tuple[Integers, int]], turns: list[Floats | None]) -> Floats | None:
+    """Return the texture coordinates of all pieces, NaN for those that have none."""
+    if all(uv is None for uv in turns):
+        return None
+    return np.concatenate(
+        [
+            np.full((len(faces), 3, 2), np.nan) if uv is None else uv
+            for (faces, _), uv in zip(pieces, turns, strict=True)
+        ]
+    )
 
 
 def _wanted(source: Source, element: Element) -> str | None:
@@ -150,7 +205,7 @@ def _assembled(
         raise FileFormatError(
             source.path,
             "expected faces (an element 'face' or 'tristrips' with a list "
-            "'vertex_indices'), found none",
+            f"'vertex_indices'), found none{POINTS_ONLY}",
         )
     if isinstance(faces.base, np.ndarray):
         faces.base.flags.writeable = False

@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 
 from beltrami._arrays import Integers
 from beltrami._jit import kernel
-from beltrami.io.ply_header import Element, Property
+from beltrami.io.ply_header import Element, Property, Rows
 from beltrami.io.source import Source
 
 
 def read_binary(
-    source: Source, start: int, element: Element, order: str, wanted: str | None
-) -> tuple[dict[str, NDArray[Any]], tuple[Integers, Integers | int] | None, int]:
-    """Read the rows of an element: scalars by name, one list (values, lengths), the position.
+    source: Source, start: int, element: Element, order: str, wanted: str | None, turns: str | None
+) -> Rows:
+    """Read the rows of an element, with one list of integers, and one of floating point.
 
     The lengths are one number where all are equal.
 
@@ -26,30 +26,31 @@ def read_binary(
         With the byte, where the file ends too early or a list has a negative length.
     """
     if not element.properties:
-        return {}, None, start
+        return Rows({}, None, None, start)
     triangles = _plain_triangles(source, start, element, order, wanted)
     if triangles is not None:
-        return {}, (triangles, 3), start + 13 * element.rows
+        return Rows({}, (triangles, 3), None, start + 13 * element.rows)
     names = [p.name for p in element.properties]
     which = names.index(wanted) if wanted in names else -1
+    turn = names.index(turns) if turns in names else -1
     if not any(p.length for p in element.properties):
         table = _table(element.properties, [], order)
         _require_bytes(source, start, table.itemsize * element.rows, element)
         rows = np.frombuffer(source.data, table, element.rows, start)
         scalars = {p.name: rows[f"p{i}"] for i, p in enumerate(element.properties)}
-        return scalars, None, start + rows.nbytes
+        return Rows(scalars, None, None, start + rows.nbytes)
     regular = _regular(source, start, element, order)
     if regular is not None:
         rows = regular
         scalars = {
             p.name: rows[f"p{i}"] for i, p in enumerate(element.properties) if p.length is None
         }
-        found = None
-        if which >= 0:
-            values = rows[f"p{which}"].reshape(len(rows), -1)
-            found = values.astype(np.int64), values.shape[1]
-        return scalars, found, start + rows.nbytes
-    return _read_irregular(source, start, element, order, which)
+        found, textures = (
+            (rows[f"p{i}"].astype(kind), rows[f"p{i}"].shape[1]) if i >= 0 else None
+            for i, kind in ((which, np.int64), (turn, np.float64))
+        )
+        return Rows(scalars, found, textures, start + rows.nbytes)
+    return _read_irregular(source, start, element, order, which, turn)
 
 
 def _require_bytes(source: Source, start: int, size: int, element: Element) -> None:
@@ -139,8 +140,8 @@ def _regular(source: Source, start: int, element: Element, order: str) -> NDArra
 
 
 def _read_irregular(
-    source: Source, start: int, element: Element, order: str, which: int
-) -> tuple[dict[str, NDArray[Any]], tuple[Integers, Integers] | None, int]:
+    source: Source, start: int, element: Element, order: str, which: int, turn: int
+) -> Rows:
     properties = element.properties
     sizes = np.array([np.dtype(p.type).itemsize for p in properties])
     counts = np.array(
@@ -162,15 +163,32 @@ def _read_irregular(
             kind = np.dtype(order + p.type)
             raw = source.data[places[:, i, None] + np.arange(kind.itemsize)]
             scalars[p.name] = np.ascontiguousarray(raw).view(kind)[:, 0]
-    if which < 0 or not counts[which]:
-        return scalars, None, end
-    kind_signed = properties[which].type[0] == "i"
-    count = (int(counts[which]), bool(signed[which]))
-    lengths, total = _lengths(source.data, places[:, which], *count, big)
-    values = np.empty(total, np.int64)
-    first = places[:, which] + count[0]
-    _gather(source.data, first, lengths, int(sizes[which]), kind_signed, big, values)
-    return scalars, (values, lengths), end
+    lists: list[Any] = [None, None]
+    for k, place in enumerate((which, turn)):
+        if place >= 0 and counts[place]:
+            count = (int(counts[place]), bool(signed[place]))
+            lengths, total = _lengths(source.data, places[:, place], *count, big)
+            first = places[:, place] + count[0]
+            form = np.dtype(order + properties[place].type)
+            if k == 0:
+                values = np.empty(total, np.int64)
+                size = int(sizes[place])
+                _gather(source.data, first, lengths, size, form.kind == "i", big, values)
+            else:
+                values = _gathered(source.data, first, lengths, form)
+            lists[k] = values, lengths
+    return Rows(scalars, lists[0], lists[1], end)
+
+
+def _gathered(
+    b: NDArray[np.uint8], first: Integers, lengths: Integers, kind: np.dtype[Any]
+) -> NDArray[np.float64]:
+    """Return the numbers of lists that begin at these bytes, one list after the other."""
+    before = np.cumsum(lengths) - lengths
+    within = np.arange(int(lengths.sum())) - np.repeat(before, lengths)
+    starts = np.repeat(first, lengths) + within * kind.itemsize
+    raw = np.ascontiguousarray(b[starts[:, None] + np.arange(kind.itemsize)])
+    return raw.view(kind)[:, 0].astype(np.float64)
 
 
 @kernel

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beltrami._arrays import read_only
+from beltrami.io.ply_texture import PAIRS
 
 _COLOUR = ("red", "green", "blue", "alpha")
 _NORMAL = ("nx", "ny", "nz")
@@ -85,7 +86,7 @@ def columns_of(data: Mapping[str, NDArray[np.generic]]) -> dict[str, NDArray[np.
             continue
         kept = _as_ply_type(array)
         if array.ndim == 1:
-            result[_escaped(name)] = kept
+            result[_escaped(name, data)] = kept
             continue
         width = kept.shape[1]
         if name == "color" and width in (3, 4):
@@ -98,10 +99,14 @@ def columns_of(data: Mapping[str, NDArray[np.generic]]) -> dict[str, NDArray[np.
     return result
 
 
-def _escaped(name: str) -> str:
-    """Write the name of a single column so that reading does not join it to others."""
+def _escaped(name: str, data: Mapping[str, object]) -> str:
+    """Write the name of a single column so that reading does not join it to others.
+
+    Nor takes two functions u and v for texture coordinates.
+    """
     safe = quote(name, safe=_PRINTABLE)
-    if safe in _RESERVED or not safe:
+    paired = any(name == first and second in data for first, second in PAIRS)
+    if safe in _RESERVED or paired or not safe:
         return "".join(f"%{ord(letter):02X}" for letter in safe[:1]) + safe[1:] if safe else "%20"
     return re.sub(r"_(?=\d+$)", "%5F", safe)
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from beltrami.errors import FileFormatError
 from beltrami.io.source import Source, mark_length
@@ -52,6 +53,18 @@ class Element(NamedTuple):
     def least_bytes(self) -> int:
         """The size of a binary row whose lists are empty."""
         return sum(np.dtype(p.length or p.type).itemsize for p in self.properties)
+
+
+class Rows(NamedTuple):
+    """What the rows of an element say: scalars by name, two lists, and where they end.
+
+    A list is (values, lengths): the vertices of faces or strips, and texture coordinates.
+    """
+
+    scalars: dict[str, NDArray[Any]]
+    corners: tuple[NDArray[Any], NDArray[np.int64] | int] | None
+    turns: tuple[NDArray[Any], NDArray[np.int64] | int] | None
+    position: int
 
 
 class Header(NamedTuple):

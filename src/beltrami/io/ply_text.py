@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from beltrami._arrays import Floats, Integers
+from beltrami._arrays import Floats
 from beltrami._jit import kernel
 from beltrami.errors import FileFormatError
 from beltrami.io.numbers import read_number
-from beltrami.io.ply_header import Element, Property
+from beltrami.io.ply_header import Element, Property, Rows
 from beltrami.io.source import Source, trimmed
 
 _DONE, _NOT_NUMBER, _NOT_IN_TYPE, _NOT_LENGTH = range(4)
 
 
 def read_text(
-    source: Source, start: int, element: Element, wanted: str | None
-) -> tuple[dict[str, NDArray[Any]], tuple[Integers, Integers] | None, int]:
-    """Read the rows of an element: scalars by name, one list (values, lengths), the position.
+    source: Source, start: int, element: Element, wanted: str | None, turns: str | None
+) -> Rows:
+    """Read the rows of an element, with one list of integers, and one of floating point.
 
     Raises
     ------
@@ -29,24 +29,15 @@ def read_text(
     """
     properties = element.properties
     names = [p.name for p in properties]
-    which = names.index(wanted) if wanted in names else -1
     listed = np.array([p.length is not None for p in properties], np.bool_)
     bounds = np.array([_bounds(p.type) for p in properties]).reshape(-1, 2)
     scalars = np.empty((element.rows if len(properties) else 0, int((~listed).sum())))
-    has_list = which >= 0 and bool(listed[which])
-    lengths = np.empty(element.rows if has_list else 0, np.int64)
-    values = np.empty((len(source.data) - start) // 2 + 1 if has_list else 0, np.int64)
-    rows = element.rows if len(properties) else 0
+    rows = len(scalars)
+    kinds = ((wanted, np.int64), (turns, np.float64))
+    lists = [_Room.of(source, start, rows, names, *kind) for kind in kinds]
+    held = [array for room in lists for array in (room.lengths, room.values)]
     position, filled, status = _rows(
-        source.data,
-        start,
-        rows,
-        listed,
-        bounds,
-        which if has_list else -1,
-        scalars,
-        lengths,
-        values,
+        source.data, start, rows, listed, bounds, lists[0].place, lists[1].place, scalars, *held
     )
     if status != _DONE:
         expected = {
@@ -57,8 +48,27 @@ def read_text(
         raise source.unexpected(position, expected[status])
     kept = [p for p in properties if p.length is None]
     table = {p.name: _cast(source, element, p, scalars[:, i]) for i, p in enumerate(kept)}
-    found = (trimmed(values, filled), lengths) if has_list else None
-    return table, found, position
+    corners, textures = (
+        (trimmed(room.values, count), room.lengths) if room.place >= 0 else None
+        for room, count in zip(lists, filled, strict=True)
+    )
+    return Rows(table, corners, textures, position)
+
+
+class _Room(NamedTuple):
+    """The place of a list among the properties, -1 for none, and room for what is in it."""
+
+    place: int
+    lengths: NDArray[np.int64]
+    values: NDArray[Any]
+
+    @classmethod
+    def of(
+        cls, source: Source, start: int, rows: int, names: list[str], name: str | None, kind: Any
+    ) -> _Room:
+        place = names.index(name) if name in names else -1
+        size = (len(source.data) - start) // 2 + 1 if place >= 0 else 0
+        return cls(place, np.empty(rows if place >= 0 else 0, np.int64), np.empty(size, kind))
 
 
 def _cast(source: Source, element: Element, p: Property, column: Floats) -> NDArray[Any]:
@@ -106,13 +116,16 @@ def _rows(
     listed: Any,
     bounds: Any,
     which: int,
+    turn: int,
     scalars: Any,
     lengths: Any,
     values: Any,
+    turn_lengths: Any,
+    turns: Any,
 ) -> Any:
-    """Read all rows: (position, values of the wanted list, status)."""
+    """Read all rows: (position, values of the two wanted lists, status)."""
     end = b.size
-    filled = 0
+    filled = turned = 0
     for row in range(rows):
         column = 0
         for k in range(listed.size):
@@ -121,24 +134,29 @@ def _rows(
                 p = next_token(b, p)
                 number, q = read_number(b, p, end)
                 if q == p or not 0.0 <= number <= end or number != np.floor(number):
-                    return p, filled, _NOT_LENGTH
+                    return p, (filled, turned), _NOT_LENGTH
                 length = np.int64(number)
                 p = q
                 if k == which:
                     lengths[row] = length
+                elif k == turn:
+                    turn_lengths[row] = length
             for _ in range(length):
                 p = next_token(b, p)
                 number, q = read_number(b, p, end)
                 if q == p:
-                    return p, filled, _NOT_NUMBER
+                    return p, (filled, turned), _NOT_NUMBER
                 low, high = bounds[k, 0], bounds[k, 1]
                 if low <= high and not (low <= number <= high and number == np.floor(number)):
-                    return p, filled, _NOT_IN_TYPE
+                    return p, (filled, turned), _NOT_IN_TYPE
                 if k == which:
                     values[filled] = np.int64(number)
                     filled += 1
+                elif k == turn:
+                    turns[turned] = number
+                    turned += 1
                 elif not listed[k]:
                     scalars[row, column] = number
                     column += 1
                 p = q
-    return p, filled, _DONE
+    return p, (filled, turned), _DONE

@@ -18,6 +18,9 @@ _NAMES = {kind: name for name, kind in reversed(TYPES.items())}  # "uchar", not 
 def write_ply(file: IO[bytes], mesh: Mesh, vertices: Floats) -> None:
     """Write a binary little-endian PLY file; numbers are kept bit for bit.
 
+    Texture coordinates go into a list texcoord of each face, in single precision where that holds
+    them exactly: MeshLab reads no other.
+
     Examples
     --------
     >>> import io
@@ -38,12 +41,23 @@ def write_ply(file: IO[bytes], mesh: Mesh, vertices: Floats) -> None:
     header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(vertices)}"]
     header += [f"property {_NAMES[kind]} {name}" for name, kind in kinds.items()]
     header += [f"element face {mesh.n_faces}", "property list uchar int vertex_indices"]
+    fields: list[Any] = [("count", "u1"), ("corners", "<i4", (3,))]
+    uv = mesh.corner_uv
+    if uv is not None:
+        with np.errstate(over="ignore"):
+            single = np.array_equal(uv.astype(np.float32), uv, equal_nan=True)
+        kind = "f4" if single else "f8"
+        header.append(f"property list uchar {_NAMES[kind]} texcoord")
+        fields += [("turns", "u1"), ("uv", "<" + kind, (6,))]
     file.write("\n".join([*header, "end_header\n"]).encode("ascii"))
     rows = np.empty(len(vertices), [(f"p{i}", "<" + kind) for i, kind in enumerate(kinds.values())])
     for i, column in enumerate(columns.values()):
         rows[f"p{i}"] = column
     file.write(rows.tobytes())
-    faces = np.empty(mesh.n_faces, [("count", "u1"), ("corners", "<i4", (3,))])
+    faces = np.empty(mesh.n_faces, fields)
     faces["count"] = 3
+    if uv is not None:
+        faces["turns"] = 6
+        faces["uv"] = uv.reshape(-1, 6)
     faces["corners"] = mesh.faces
     file.write(faces.tobytes())

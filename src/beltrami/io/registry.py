@@ -30,7 +30,7 @@ from beltrami.io.off_write import write_off
 from beltrami.io.picture import Picture, png_bytes
 from beltrami.io.ply import read_ply
 from beltrami.io.ply_write import write_ply
-from beltrami.io.source import Source, load
+from beltrami.io.source import POINTS_ONLY, Source, load
 from beltrami.io.stl import read_stl, write_stl
 from beltrami.mesh.door import require_mesh
 from beltrami.mesh.mesh import Mesh
@@ -64,8 +64,9 @@ def read_mesh(
     OBJ, OFF, PLY, STL and VTK's legacy surfaces are read here, checked byte by byte; the extra
     ``io`` adds GIFTI, FreeSurfer, glTF, other VTK files and more. Any of them may be compressed,
     as in ``mesh.obj.gz``. Polygons are cut into triangles from their first corner. The vertices
-    stay in the order of the file, and nothing is merged, except in STL, where exactly equal
-    corners are one vertex.
+    stay in the order of the file, and nothing is merged, except what a format has to part: in STL
+    exactly equal corners are one vertex, in glTF vertices that differ only in their texture
+    coordinates.
 
     Parameters
     ----------
@@ -81,7 +82,8 @@ def read_mesh(
     Returns
     -------
     Mesh
-        With ``vertex_data`` (PLY, COFF, NOFF, coloured OBJ) and ``corner_uv`` (OBJ, glTF).
+        With ``vertex_data`` (PLY, COFF, NOFF, coloured OBJ, glTF's normals and colours, as sRGB
+        values in [0, 1]) and ``corner_uv`` (OBJ, PLY, glTF).
 
     Raises
     ------
@@ -106,6 +108,8 @@ def read_mesh(
     """
     if Path(path).is_dir():
         raise FileFormatError(path, "expected a file, found a directory. Name a file in it")
+    if format is None and Path(path).suffix.lower() == ".xyz":
+        raise FileFormatError(path, f"expected a format with faces{POINTS_ONLY}")
     suffix = suffix_of(path, format, (*READERS, *extras.READERS))
     if suffix in READERS:
         return READERS[suffix](load(path, max_bytes))
@@ -122,11 +126,11 @@ def write_mesh(
     """Write a mesh to a file: wholly, or on any error or interrupt not at all.
 
     What a format cannot hold is left out: OBJ keeps coordinates, texture coordinates and the
-    vertex data "color"; OFF coordinates, "color" and "normal"; PLY coordinates and all numeric
-    vertex data, with their types; STL only coordinates, rounded to 32 bits, as in GIFTI and
-    FreeSurfer's files (``lh.pial`` ...); GLB, in 32 bits too, what OBJ keeps, and normals, so that
-    viewers shade it smoothly (see ``glb_bytes``). Everything else reads back bit for bit. A flat
-    mesh (d = 2) is written with z = 0.
+    vertex data "color"; OFF coordinates, "color" and "normal"; PLY coordinates, all numeric
+    vertex data, with their types, and texture coordinates; STL only coordinates, rounded to 32
+    bits, as in GIFTI and FreeSurfer's files (``lh.pial`` ...); GLB, in 32 bits too, what OBJ keeps,
+    and normals, so that viewers shade it smoothly (see ``glb_bytes``). Everything else reads back
+    bit for bit. A flat mesh (d = 2) is written with z = 0.
 
     Parameters
     ----------
@@ -136,7 +140,7 @@ def write_mesh(
         The mesh, finite and with faces: what is written can be read.
     uv
         Texture coordinates (n, 2), or (m, 3, 2) for each corner, instead of ``mesh.corner_uv``:
-        only for OBJ and GLB, which holds them in single precision, and needs a copy of each
+        only for OBJ, PLY and GLB, which holds them in single precision, and needs a copy of each
         vertex for each of its coordinates.
     texture
         A picture to go with them, a file or an array: see ``render``. GLB holds it; with
@@ -170,7 +174,8 @@ def write_mesh(
     material = ""
     turns = None if uv is None else as_floats(uv)
     if turns is not None or texture is not None:
-        check_name("format for texture coordinates", suffix, TEXTURED)
+        holding = TEXTURED if texture is not None else (*TEXTURED, ".ply")
+        check_name("format for texture coordinates", suffix, holding)
         corner_texture(mesh, turns)  # before anything is written
     if texture is not None:
         if turns is None and mesh.corner_uv is None:
@@ -229,6 +234,9 @@ def _write(
         write_obj(file, mesh, vertices, uv, material)
     elif suffix == ".glb":
         file.write(glb_bytes(mesh, vertices, corner_texture(mesh, uv), texture))
+    elif suffix == ".ply" and uv is not None:
+        turns = corner_texture(mesh, uv)
+        write_ply(file, Mesh(mesh.vertices, mesh.topology, mesh.vertex_data, turns), vertices)
     elif suffix in WRITERS:
         WRITERS[suffix](file, mesh, vertices)
     else:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from beltrami._jit import kernel
+from beltrami._jit import part_of_kernels
 from beltrami.io.powers import FIVE_HIGH, FIVE_LOW, LARGEST, SMALLEST, TWO
 
 _1 = np.uint64(1)
@@ -19,7 +19,7 @@ _ALL = np.uint64(0xFFFFFFFFFFFFFFFF)
 _CARRY = np.uint64(1 << 53)
 
 
-@kernel
+@part_of_kernels
 def scaled(w: Any, q: int) -> float:
     """Return the double nearest to w 10**q, ties to even; NaN where 128 bits do not decide.
 
@@ -33,7 +33,8 @@ def scaled(w: Any, q: int) -> float:
     Examples
     --------
     >>> import numpy as np
-    >>> scaled(np.uint64(12345678901234567), -16) == 1.2345678901234567
+    >>> from beltrami._jit import kernel
+    >>> kernel(scaled)(np.uint64(12345678901234567), -16) == 1.2345678901234567
     True
     """
     if w == np.uint64(0) or q < SMALLEST:
@@ -73,14 +74,15 @@ def scaled(w: Any, q: int) -> float:
     return np.float64(np.int64(mantissa)) * TWO[power + 1074]
 
 
-@kernel
+@part_of_kernels
 def product(a: Any, b: Any) -> Any:
     """Return the high and the low word of the product of two 64-bit integers.
 
     Examples
     --------
     >>> import numpy as np
-    >>> high, low = product(np.uint64(2**63), np.uint64(6))
+    >>> from beltrami._jit import kernel
+    >>> high, low = kernel(product)(np.uint64(2**63), np.uint64(6))
     >>> int(high), int(low)
     (3, 0)
     """

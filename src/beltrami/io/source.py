@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from beltrami.errors import FileFormatError
 from beltrami.io.unpacking import gunzipped, room_of
 
+POINTS_ONLY = ". If it has points only, PointCloud(read_points(path)) is the domain for them"
 _SHOWN = 40  # of the bytes at fault
 _BLOCK = 1 << 20  # bytes read at a time: they stay in the processor's cache
 _MARK = b"\xef\xbb\xbf"

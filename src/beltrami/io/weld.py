@@ -31,6 +31,25 @@ def weld(corners: Floats) -> tuple[Floats, Integers]:
     return rows[first], labels
 
 
+def alike(rows: Floats) -> tuple[Integers, Integers]:
+    """Find the equal rows of (k, c): (first row of each kind, the kind of each row).
+
+    Equal as for ``weld``, of which it makes one for every two columns.
+
+    Examples
+    --------
+    >>> first, kinds = alike(np.array([[1.0, 0, 0, 7], [1, 0, 0, 8], [1, 0, 0, 7]]))
+    >>> first.tolist(), kinds.tolist()
+    ([0, 1], [0, 1, 0])
+    """
+    k, columns = rows.shape
+    even = np.hstack([rows, np.zeros((k, columns % 2))])
+    kinds = np.zeros(k, np.int64)
+    for c in range(0, even.shape[1], 2):
+        _, kinds = weld(np.column_stack([kinds, even[:, c : c + 2]]))
+    return np.unique(kinds, return_index=True)[1], kinds
+
+
 @kernel
 def _labels(bits: Any, table: Any) -> Any:
     """Label equal rows through a hash table with open addressing, at most half full."""
