@@ -90,8 +90,10 @@ def _read_vtk(place: Path, room: Room) -> Any:
     if not is_polydata(source):
         return _read_meshio(place, room)
     found = read_polydata(source)
-    data = found.data if found.uv is None else {**found.data, _UV: found.uv}
-    return found.points, found.faces, data
+    if found.uv is None or found.uv.shape != (len(found.points), 2):
+        return found.points, found.faces, found.data
+    uv = np.where(np.isfinite(found.uv), found.uv, np.nan)[found.faces]
+    return found.points, found.faces, {**found.data, _UV: uv}
 
 
 def _read_meshio(place: Path, room: Room) -> Any:
