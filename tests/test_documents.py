@@ -86,6 +86,13 @@ def test_the_picture_of_the_readme_is_made_by_the_example(tmp_path):
     assert size_of(tmp_path / "blob.png") == size_of(ROOT / "docs/images/blob.png")
 
 
+@pytest.mark.parametrize(
+    "path", [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")], ids=lambda path: path.stem
+)
+def test_no_document_holds_two_versions_of_its_text(path):
+    assert not re.search(r"^(<{7} |={7}$|>{7} )", path.read_text(encoding="utf-8"), re.MULTILINE)
+
+
 @pytest.mark.parametrize("name", ["ARCHITECTURE", "CONTRIBUTING", "README", "benchmarks/README"])
 def test_what_the_documents_name_is_there(name):
     text = (ROOT / f"{name}.md").read_text(encoding="utf-8")
