@@ -19,7 +19,7 @@ _TO_DOUBLE: Any = types.ExternalFunction(
 _TAKE: Any = types.ExternalFunction("PyMem_RawCalloc", types.uintp(types.uintp, types.uintp))
 _GIVE_BACK: Any = types.ExternalFunction("PyMem_RawFree", types.void(types.uintp))
 _COPY: Any = types.ExternalFunction("memcpy", types.uintp(types.uintp, types.uintp, types.uintp))
-_LONGEST = 1 << 24  # bytes; Python raises an error at 10**9 digits, which nothing here would see
+_LONGEST = 10**9 - 1  # bytes; with more digits Python raises an error, which nothing here would see
 
 
 @part_of_kernels
