@@ -200,6 +200,19 @@ def test_surfaces_stand_where_the_scene_has_them_and_mirrors_do_not_turn_them(tm
     assert mesh.n_vertices == 16
 
 
+def test_a_mirror_leaves_each_corner_its_coordinates(tmp_path, trimesh):
+    box = trimesh.creation.box()
+    uv = np.random.default_rng(1).random((len(box.vertices), 2))
+    box.visual = trimesh.visual.TextureVisuals(uv=uv, image=Image.fromarray(PICTURE))
+    scene = trimesh.Scene()
+    scene.add_geometry(box, transform=np.diag([-1.0, 1, 1, 1]))
+    scene.export(tmp_path / "a.glb")
+    mesh = read_mesh(tmp_path / "a.glb")
+    at = np.abs(mesh.vertices[:, None] - box.vertices * [-1, 1, 1]).sum(axis=2).argmin(axis=1)
+    np.testing.assert_allclose(mesh.corner_uv, uv[at[mesh.faces]], atol=1e-6)
+    np.testing.assert_allclose(mesh.volume, 1.0, rtol=1e-6)
+
+
 def test_a_scene_without_surfaces_is_told(tmp_path, trimesh):
     trimesh.Scene([trimesh.PointCloud([[0.0, 0, 0], [1, 1, 1]])]).export(tmp_path / "a.glb")
     with pytest.raises(FileFormatError, match="expected vertices and triangles"):

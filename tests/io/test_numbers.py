@@ -115,6 +115,12 @@ def test_long_numbers(text):
     assert same_bits(parse(text), float(text))
 
 
+@pytest.mark.parametrize("end", ["", "1"])
+def test_ties_of_millions_of_digits(end):
+    text = "9007199254740993." + "0" * (17 << 20) + end
+    assert same_bits(parse(text), 9007199254740994.0 if end else 9007199254740992.0)
+
+
 def test_nan():
     assert math.isnan(parse("nan"))
     assert math.isnan(parse("-NaN"))

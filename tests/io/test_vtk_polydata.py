@@ -115,6 +115,17 @@ def test_strips_and_texture_coordinates(tmp_path):
     assert np.array_equal(mesh.corner_uv, mesh.vertices[mesh.faces][:, :, :2])
 
 
+def test_coordinates_of_a_texture_that_is_no_picture_are_left_out(tmp_path):
+    lines = (
+        "POINTS 3 float", "0 0 0 1 0 0 0 1 0", "POLYGONS 1 4", "3 0 1 2",
+        "POINT_DATA 3", "TEXTURE_COORDINATES t 3 float", "0 0 1 0 0 1 1 1 1",
+    )  # fmt: skip
+    (tmp_path / "a.vtk").write_bytes(text(*lines))
+    mesh = bt.read_mesh(tmp_path / "a.vtk")
+    assert mesh.n_faces == 1
+    assert mesh.corner_uv is None
+
+
 def test_it_may_be_compressed(tmp_path):
     (tmp_path / "a.vtk.gz").write_bytes(gzip.compress(old_binary()))
     assert bt.read_mesh(tmp_path / "a.vtk.gz").n_faces == 3

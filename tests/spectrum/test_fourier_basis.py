@@ -307,6 +307,20 @@ def test_weights_of_many_sizes(tmp_path):
         assert bt.load_basis(tmp_path / "basis.npz", pair).k == k
 
 
+@pytest.mark.parametrize("seed", [37, 110, 238])
+def test_what_rounding_left_of_held_problems_can_be_saved(seed, tmp_path):
+    """Their zeros have no constants beside them, and residuals far above those of constants."""
+    random = np.random.default_rng(seed)
+    n = random.integers(5, 30)
+    w = 10.0 ** random.uniform(-20, 20, n) * (1 + random.random(n))
+    chain = csr_array(diags_array([w], offsets=[1], shape=(n + 1, n + 1)))
+    pair = bt.laplacian(csr_array(chain + chain.T), mass="unit")
+    for k in (2, 4):
+        basis = bt.fourier_basis(pair, k, hold=random.integers(0, n + 1, 2))
+        basis.save(tmp_path / "basis.npz")
+        assert bt.load_basis(tmp_path / "basis.npz", pair).k == k
+
+
 def test_negative_eigenvalues_of_weights_of_yours_stay():
     W = csr_array(np.array([[0, -1.0, 2], [-1, 0, 0], [2, 0, 0]]))
     pair = bt.laplacian(W, mass="unit")
