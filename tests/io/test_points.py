@@ -45,7 +45,9 @@ def test_those_of_a_mesh(tmp_path, suffix):
 
 def test_tables_with_names_colours_and_gzip(put, tmp_path):
     path = put("a.csv", "x,y,z,red\n1,2,3,255\n4,5,6,0\n")
-    assert read_points(path).tolist() == [[1, 2, 3], [4, 5, 6]]
+    found = read_points(path)
+    assert found.tolist() == [[1, 2, 3], [4, 5, 6]]
+    assert found.base is None  # the other columns are not held
     (tmp_path / "a.xyz.gz").write_bytes(gzip.compress(FILES["a.xyz"].encode()))
     assert read_points(tmp_path / "a.xyz.gz").tolist() == POINTS
 
