@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from beltrami._arrays import Booleans, Floats
+from beltrami.diffusion.noise import averaging_matrix
 from beltrami.mesh.mesh import Mesh
 
 _REMOVED = (2, 3, 4, 5, 6)  # rounds of averaging
@@ -162,38 +162,28 @@ def shrunk_weights(gram: Floats, agreement: Floats, variance: float) -> Floats:
 
 def _terms(mesh: Mesh, x: Floats, normals: Floats, unit: float) -> Iterator[Floats]:
     """Yield (n,) terms in the unit of length, of positions x with these normals."""
-    A = mesh.topology.adjacency
+    W = averaging_matrix(mesh.topology.adjacency)
     removed, left = {}, {}
     f, z = np.einsum("ij,ij->i", mesh.vertices - x, normals), x
     for k in range(1, max(*_REMOVED, *_LEFT) + 1):
-        f, z = _averaged(A, f), _averaged(A, z)
+        f, z = W @ f, W @ z
         removed[k], left[k] = f, np.einsum("ij,ij->i", z - x, normals)
     yield from (removed[k] for k in _REMOVED)
     yield from (left[k] for k in _LEFT)
-    for factor in _places(mesh, x, _averaged(A, left[1]), unit):
+    for factor in _places(mesh, x, W @ left[1], unit):
         yield from (factor * removed[k] for k in _REMOVED_HERE)
         yield from (factor * left[k] for k in _LEFT_HERE)
 
 
 def _places(mesh: Mesh, x: Floats, bend: Floats, unit: float) -> Iterator[Floats]:
     """Yield how unusual the edges at each vertex, its mean curvature and the size of that are."""
-    A, (i, j) = mesh.topology.adjacency, mesh.edges.T
+    i, j = mesh.edges.T
     lengths = np.linalg.norm(x[i] - x[j], axis=1)
     total = np.bincount(i, lengths, len(x)) + np.bincount(j, lengths, len(x))
-    mean = total / np.maximum(np.diff(A.indptr), 1)
+    mean = total / np.maximum(np.diff(mesh.topology.adjacency.indptr), 1)
     for value in (
         (mean / unit - _LENGTH) / _LENGTHS,
         bend / unit / _BENDS,
         (np.abs(bend) / unit - _BENT) / _MORE_BENT,
     ):
         yield np.clip(value, -_MOST, _MOST)
-
-
-def _averaged(A: csr_array, f: Floats) -> Floats:
-    """Return the mean over the neighbours of each vertex, (n,) or (n, 3); its own without any."""
-    degrees = np.diff(A.indptr)
-    inner = degrees > 0
-    means = np.array(f, np.float64)
-    shape = (-1,) + (1,) * (means.ndim - 1)
-    means[inner] = (A @ means)[inner] / degrees[inner].reshape(shape)
-    return means

@@ -81,7 +81,7 @@ def noise_level(
     degrees = np.diff(adjacency.indptr)
     inner = degrees > 0
     n = len(f)
-    K = csr_array(eye_array(n, format="csr") - _averaging(adjacency))
+    K = csr_array(eye_array(n, format="csr") - averaging_matrix(adjacency))
     R, levels = K, []
     standard = {}
     for order in ORDERS:
@@ -119,8 +119,8 @@ def _correlation(adjacency: csr_array, values: Floats) -> float:
     return float(cut @ (adjacency @ cut)) / adjacency.nnz / square
 
 
-def _averaging(adjacency: csr_array) -> csr_array:
-    """W̃, with the identity where a vertex has no neighbours."""
+def averaging_matrix(adjacency: csr_array) -> csr_array:
+    """Return W̃ (n, n), with the identity where a vertex has no neighbours."""
     degrees = np.diff(adjacency.indptr)
     shares = diagonal_matrix(1 / np.maximum(degrees, 1)) @ adjacency
     return csr_array(shares + diagonal_matrix(np.where(degrees == 0, 1.0, 0.0)))
