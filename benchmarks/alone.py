@@ -1,4 +1,4 @@
-"""Two contenders in a process of their own: ``python -m benchmarks.alone ...``.
+"""Few contenders in a process of their own: ``python -m benchmarks.alone ...``.
 
 A library that takes hundreds of megabytes and frees them leaves its process with memory that was
 touched before. Who comes after it does not wait for the first touch of pages, as in a program that

@@ -114,8 +114,8 @@ class Row:
         Measured with ``--large``, for a report of its own: it takes many minutes. The warm-up is
         on a small mesh, and the first timed run gives the result that is compared.
     alone
-        The two contenders of the one goal are timed in turn in a process that nobody else runs in,
-        and it is judged by that. For work that takes and frees much memory: the first touch of
+        Those that the goals compare are timed in turn in a process that nobody else runs in, and
+        the goals are judged by that. For work that takes and frees much memory: the first touch of
         pages is up to half of its time, or nothing after others have touched and freed them.
     """
 

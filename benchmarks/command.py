@@ -42,18 +42,17 @@ def with_memory(table: Table, folder: Path, quick: bool) -> Table:
 
 
 def with_times_alone(table: Table, folder: Path, quick: bool, runs: int) -> Table:
-    """Time the two that the goal compares once more, in a process where nobody else runs.
+    """Time those that the goals compare once more, in a process where nobody else runs.
 
     Raises
     ------
     RuntimeError
-        If that process fails, though both had run before.
+        If that process fails, though all had run before.
     """
-    (goal,) = table.row.goals
-    ours, other = table.named(goal.of), table.against(goal)
-    if ours is None or other is None:
+    pairs = [(table.named(goal.of), table.against(goal)) for goal in table.row.goals]
+    if any(one is None for pair in pairs for one in pair):
         return table
-    names = ours.contender.name, other.contender.name
+    names = tuple(dict.fromkeys(one.contender.name for pair in pairs for one in pair if one))
     seconds = ask("alone", table.row.name, table.case, names, folder, quick, runs)
     alone = dict(zip(names, map(tuple, seconds), strict=True))
     measured = (replace(one, alone=alone.get(one.contender.name, ())) for one in table.measured)

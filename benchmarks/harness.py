@@ -19,7 +19,7 @@ ORDER = 918_273_645
 class Measured:
     """What came out for one contender; ``problem`` says why there are no seconds, if so.
 
-    ``alone`` are the seconds in a process of this one and of the one that it is judged with.
+    ``alone`` are the seconds in a process of those alone that the goals compare.
     """
 
     contender: Contender

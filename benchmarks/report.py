@@ -15,8 +15,8 @@ HEAD = """# Benchmarks
 Written by `python -m benchmarks` (`make bench` installs the peers first); `benchmarks/README.md`
 tells how it is measured. Every library gets the same arrays in one process, on one thread, in
 turn; times are medians of CPU seconds unless wall time is said. Absolute times belong to the
-machine named at the end: what counts is the ratio. In a row with large arrays the two that the
-goal compares are timed alone in a fresh process: to take memory costs little in a process where
+machine named at the end: what counts is the ratio. In a row with large arrays those that the
+goals compare are timed alone in a fresh process: to take memory costs little in a process where
 other libraries have touched and freed much of it.
 """
 NONE = "-"
@@ -105,7 +105,7 @@ def raw(table: Table) -> str:
 
 
 def alone(table: Table) -> str:
-    """Tell what the two took that a goal compares, in a process of their own."""
+    """Tell what those took that the goals compare, in a process of their own."""
     told = [
         f"{one.contender.name} {one.judged:.4f} s ({min(one.alone):.4f} to {max(one.alone):.4f})"
         for one in table.measured

@@ -106,5 +106,6 @@ ASSEMBLY = Row(
     work="cotangent stiffness and barycentric mass, from the raw arrays",
     contenders=contenders,
     goals=(Goal(0.2), Goal(0.2, of="beltrami, topology known")),
+    alone=True,
     difference=difference,
 )

@@ -139,6 +139,7 @@ def row(suffix: str, limit: float, work: str) -> Row:
         goals=(Goal(limit),),
         difference=difference,
         size=537_000,
+        alone=True,
     )
 
 

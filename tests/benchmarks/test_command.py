@@ -102,7 +102,7 @@ def test_stopped_run_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     assert measured == ["second"]
 
 
-def test_goal_of_a_row_alone_is_judged_by_the_two_it_compares(
+def test_goals_of_a_row_alone_are_judged_by_those_they_compare(
     report: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[tuple[object, ...]] = []
@@ -112,11 +112,13 @@ def test_goal_of_a_row_alone_is_judged_by_the_two_it_compares(
         return 12 if arguments[0] == "memory" else [[3.0, 1.0, 2.0], [5.0, 5.0, 5.0]]
 
     monkeypatch.setattr(command, "ask", ask)
-    monkeypatch.setattr(command, "ROWS", (replace(row("first"), alone=True),))
+    goals = (Goal(0.5), Goal(2, of="peer", against="beltrami"))
+    monkeypatch.setattr(command, "ROWS", (replace(row("first"), alone=True, goals=goals),))
     for _ in range(2):  # measured, and as it was kept
         command.main(["--runs", "3", "--folder", str(report.parent)])
         assert [one[3] for one in asked if one[0] == "alone"] == [("beltrami", "peer")]
         text = report.read_text()
         assert "| beltrami 2.0000 s | peer 5.0000 s | 0.400 x | <= 0.5 x | met |" in text
+        assert "| peer 5.0000 s | beltrami 2.0000 s | 2.500 x | <= 2 x | **missed** |" in text
         assert "| beltrami | 1.0000 | 1.0000 to 1.0000 |" in text  # among all
         assert "in turn: beltrami 2.0000 s (1.0000 to 3.0000), peer 5.0000 s (5.0000 to" in text
