@@ -22,7 +22,7 @@ test: $(VENV)/.installed  ## lint, types, import rule and every unmarked test
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
-	$(BIN)/python -m pytest -n auto
+	$(BIN)/python -m pytest -n auto --dist worksteal
 
 test-heavy: $(VENV)/.installed  ## fuzzing at length, millions of vertices
 	$(BIN)/python -m pytest -m heavy
@@ -70,7 +70,7 @@ audit: $(VENV)/.installed  ## bill of materials (dist/sbom.json); fails on what 
 	$(BIN)/python -m pip freeze --exclude-editable > dist/installed.txt
 	.venv-audit/bin/pip-audit --strict --no-deps --disable-pip -r dist/installed.txt
 
-FORMATS ?= obj off ply stl btm csv npy npz gz gii vtu
+FORMATS ?= obj off ply stl btm csv npy npz gz gii vtu vtp
 SECONDS ?= 60
 fuzz: $(VENV)/.installed  ## readers, by Atheris, with bounds checked; finds stay in .fuzz
 	$(BIN)/python -m pip install --quiet --group fuzz
