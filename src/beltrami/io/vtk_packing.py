@@ -150,7 +150,7 @@ def lz4_block(data: bytes, length: int) -> bytes:
 
 
 @kernel
-def _more(b: Any, p: int, count: int) -> Any:
+def _more(b: Any, p: Any, count: Any) -> Any:
     """Add to a length of 15 the bytes that follow, up to one below 255: (length, position)."""
     if count == 15:
         while p < b.size:
