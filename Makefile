@@ -32,10 +32,10 @@ $(VENV)/.browser: $(VENV)/.installed
 	touch $@
 
 test-browser: $(VENV)/.browser  ## the pages in a real Chromium, and their modules in node
-	$(BIN)/python -m pytest -m browser
+	$(BIN)/python -m pytest -m browser $$(grep -rl --include='*.py' 'mark\.browser' tests)
 
 test-firefox: $(VENV)/.browser  ## the pages in a real Firefox, on a screen of Xvfb
-	$(BIN)/python -m pytest -m firefox
+	$(BIN)/python -m pytest -m firefox $$(grep -rl --include='*.py' 'mark\.firefox' tests)
 
 test-neighbours:  ## cards in IPython, meshes through pyvista, open3d, polyscope and S3: half a gigabyte
 	$(PYTHON) -m venv .venv-neighbours
