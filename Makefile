@@ -18,11 +18,13 @@ $(VENV)/.installed: pyproject.toml
 tour: $(VENV)/.installed  ## the whole of it on the embedded shape; results in ./tour
 	$(BIN)/beltrami tour -o tour
 
-test: $(VENV)/.installed  ## lint, types, import rule and every unmarked test
+test: $(VENV)/.installed  ## lint, types, import rule and every unmarked test; what fails twice, to say how
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
-	$(BIN)/mypy
-	$(BIN)/python -m pytest -n auto --dist worksteal
+	$(BIN)/mypy & types=$$!; \
+	$(BIN)/python -m pytest -n auto --dist worksteal --assert plain || \
+	  { failed=yes; $(BIN)/python -m pytest --last-failed --last-failed-no-failures none; }; \
+	wait $$types && test -z "$$failed"
 
 test-heavy: $(VENV)/.installed  ## fuzzing at length, millions of vertices
 	$(BIN)/python -m pytest -m heavy
