@@ -18,11 +18,13 @@ $(VENV)/.installed: pyproject.toml
 tour: $(VENV)/.installed  ## the whole of it on the embedded shape; results in ./tour
 	$(BIN)/beltrami tour -o tour
 
-test: $(VENV)/.installed  ## lint, types, import rule and every unmarked test
+test: $(VENV)/.installed  ## lint, types, import rule and every unmarked test; what fails twice, to say how
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
-	$(BIN)/mypy
-	$(BIN)/python -m pytest -n auto
+	$(BIN)/mypy & types=$$!; \
+	$(BIN)/python -m pytest -n auto --dist worksteal --assert plain || \
+	  { failed=yes; $(BIN)/python -m pytest --last-failed --last-failed-no-failures none; }; \
+	wait $$types && test -z "$$failed"
 
 test-heavy: $(VENV)/.installed  ## fuzzing at length, millions of vertices
 	$(BIN)/python -m pytest -m heavy
@@ -32,10 +34,10 @@ $(VENV)/.browser: $(VENV)/.installed
 	touch $@
 
 test-browser: $(VENV)/.browser  ## the pages in a real Chromium, and their modules in node
-	$(BIN)/python -m pytest -m browser
+	$(BIN)/python -m pytest -m browser $$(grep -rl --include='*.py' 'mark\.browser' tests)
 
 test-firefox: $(VENV)/.browser  ## the pages in a real Firefox, on a screen of Xvfb
-	$(BIN)/python -m pytest -m firefox
+	$(BIN)/python -m pytest -m firefox $$(grep -rl --include='*.py' 'mark\.firefox' tests)
 
 test-neighbours:  ## cards in IPython, meshes through pyvista, open3d, polyscope and S3: half a gigabyte
 	$(PYTHON) -m venv .venv-neighbours
@@ -70,7 +72,7 @@ audit: $(VENV)/.installed  ## bill of materials (dist/sbom.json); fails on what 
 	$(BIN)/python -m pip freeze --exclude-editable > dist/installed.txt
 	.venv-audit/bin/pip-audit --strict --no-deps --disable-pip -r dist/installed.txt
 
-FORMATS ?= obj off ply stl btm csv npy npz gz gii vtu
+FORMATS ?= obj off ply stl btm csv npy npz gz gii vtu vtp
 SECONDS ?= 60
 fuzz: $(VENV)/.installed  ## readers, by Atheris, with bounds checked; finds stay in .fuzz
 	$(BIN)/python -m pip install --quiet --group fuzz

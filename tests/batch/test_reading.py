@@ -28,7 +28,9 @@ def read(place, allowed=None):
     return mesh_of(read_input(str(place), str(place), allowed), allowed)
 
 
-@pytest.mark.parametrize("suffix", [".ply", ".off", ".obj", ".stl", ".ply.gz", ".PLY", ".vtk"])
+@pytest.mark.parametrize(
+    "suffix", [".ply", ".off", ".obj", ".stl", ".ply.gz", ".PLY", ".vtk", ".vtp"]
+)
 def test_every_format_reads_as_from_a_file(tmp_path, suffix):
     path = tmp_path / f"mesh{suffix}"
     write_mesh(path, MESH)

@@ -1,17 +1,24 @@
 import re
 import shlex
+import shutil
 
 import pytest
+from typer.testing import CliRunner
 
-from beltrami.io.registry import read_mesh
+from beltrami.cli.app import app
+from beltrami.io.registry import read_mesh, write_mesh
+from beltrami.mesh.shapes import icosphere
 
 
-@pytest.fixture
-def folder(beltrami, sphere, tmp_path):
-    done = beltrami("tour", sphere, "-o", tmp_path / "a tour")
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    place = tmp_path_factory.mktemp("made once")
+    write_mesh(place / "a sphere é.ply", icosphere(2))
+    words = ["tour", str(place / "a sphere é.ply"), "-o", str(place / "a tour")]
+    done = CliRunner(env={"COLUMNS": "200"}).invoke(app, words)
     assert done.exit_code == 0, done.stderr
     assert done.stderr == ""
-    return tmp_path / "a tour"
+    return place / "a tour"
 
 
 def test_everything_the_page_names_is_there(folder):
@@ -24,7 +31,8 @@ def test_everything_the_page_names_is_there(folder):
     assert "None" not in page
 
 
-def test_its_commands_run_in_its_folder(folder, beltrami, monkeypatch):
+def test_its_commands_run_in_its_folder(folder, beltrami, monkeypatch, tmp_path):
+    folder = shutil.copytree(folder, tmp_path / "a tour")
     monkeypatch.chdir(folder)
     blocks = re.findall(r"<pre>(.*?)</pre>", (folder / "index.html").read_text("utf-8"), re.S)
     smoothed = read_mesh("smoothed.ply").vertices.copy()

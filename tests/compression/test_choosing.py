@@ -13,8 +13,7 @@ from beltrami.compression.numbers import surroundings
 from beltrami.compression.sampling import order_of_sample, part_of, sample_of
 from beltrami.compression.transform import analyse
 from beltrami.mesh.mesh import Mesh
-
-BLOB = bt.shapes.blob(6000)
+from made_once import creature
 
 
 def around(mesh):
@@ -23,14 +22,14 @@ def around(mesh):
 
 @pytest.mark.parametrize("size", [50, 1999, 4500])
 def test_a_sample_is_of_regions(size):
-    sample = sample_of(around(BLOB), size)
+    sample = sample_of(around(creature(6000)), size)
     assert size // max(1, size // 2000) <= len(sample) <= size  # regions may meet
     assert (np.diff(sample) > 0).all()
-    faces = part_of(BLOB.faces, BLOB.n_vertices, sample)
-    part = Mesh(BLOB.vertices[sample], faces)
+    faces = part_of(creature(6000).faces, creature(6000).n_vertices, sample)
+    part = Mesh(creature(6000).vertices[sample], faces)
     np.testing.assert_array_equal(
         np.sort(sample[faces], axis=1),
-        np.sort(BLOB.faces[np.isin(BLOB.faces, sample).all(axis=1)], axis=1),
+        np.sort(creature(6000).faces[np.isin(creature(6000).faces, sample).all(axis=1)], axis=1),
     )
     assert part.topology.n_components <= max(1, size // 2000)
 
@@ -43,13 +42,15 @@ def test_a_sample_of_what_hangs_together_nowhere():
 
 
 def test_the_order_of_a_sample_is_how_coding_would_begin():
-    near = around(BLOB)
+    near = around(creature(6000))
     order = order_of_sample(near, 4000)
     assert len(order) == len(set(order.tolist())) == 4000
     start = order[0]
-    moved = np.roll(np.arange(BLOB.n_vertices), -start)  # so that the seed has the number 0
+    moved = np.roll(
+        np.arange(creature(6000).n_vertices), -start
+    )  # so that the seed has the number 0
     place = np.argsort(moved)
-    other = look_around(place[BLOB.faces], BLOB.n_vertices)
+    other = look_around(place[creature(6000).faces], creature(6000).n_vertices)
     assert moved[coding_order(other)[0]] == start
     ring = np.flatnonzero(np.isin(order[:2000], near.around[near.starts[start] :][:6]))
     assert ring.max() < 60  # a region grows from its middle
@@ -92,9 +93,9 @@ def coded(monkeypatch):
 @pytest.mark.parametrize("part", [0.02, 1e-3, 2e-6])
 def test_all_vertices_are_written_once_and_few_are_tried(monkeypatch, part):
     counts = coded(monkeypatch)
-    error = part * np.ptp(BLOB.vertices)
-    data = bt.compress(BLOB, max_error=error, effort="fast", verify=False)
-    n = BLOB.n_vertices
+    error = part * np.ptp(creature(6000).vertices)
+    data = bt.compress(creature(6000), max_error=error, effort="fast", verify=False)
+    n = creature(6000).n_vertices
     assert n <= counts["grid"] + counts["smooth"] + counts["spectral"] <= n + choosing.LEAST
     assert counts["sizes"] <= 2 * choosing.LEAST
     if part < 1e-5:
@@ -105,19 +106,24 @@ def test_all_vertices_are_written_once_and_few_are_tried(monkeypatch, part):
 @pytest.mark.parametrize("mode", ["grid", "smooth", "spectral"])
 def test_a_mode_that_is_asked_for_is_written_once(monkeypatch, mode):
     counts = coded(monkeypatch)
-    bt.compress(BLOB, max_error=0.02, mode=mode, effort="fast", verify=False)
+    bt.compress(creature(6000), max_error=0.02, mode=mode, effort="fast", verify=False)
     tried = choosing.LEAST if mode == "spectral" else 0
-    assert BLOB.n_vertices <= counts.pop(mode) <= BLOB.n_vertices + tried
+    assert creature(6000).n_vertices <= counts.pop(mode) <= creature(6000).n_vertices + tried
     assert not any(counts.values())
 
 
 @pytest.mark.parametrize("part", [0.03, 3e-3, 5e-4, 1e-4])
 def test_what_the_sample_chooses_is_the_shortest_or_near(part):
-    options = {"max_error": part * np.ptp(BLOB.vertices), "effort": "fast", "verify": False}
+    options = {
+        "max_error": part * np.ptp(creature(6000).vertices),
+        "effort": "fast",
+        "verify": False,
+    }
     sizes = [
-        len(bt.compress(BLOB, mode=mode, **options)) for mode in ("grid", "smooth", "spectral")
+        len(bt.compress(creature(6000), mode=mode, **options))
+        for mode in ("grid", "smooth", "spectral")
     ]
-    assert len(bt.compress(BLOB, **options)) <= 1.05 * min(sizes)
+    assert len(bt.compress(creature(6000), **options)) <= 1.05 * min(sizes)
 
 
 def test_frugal_blocks_lose_little():
@@ -142,8 +148,8 @@ def test_frugal_blocks_lose_little():
 def test_all_vertices_are_written_as_the_sample_is_shortest(monkeypatch, sizes, mode):
     monkeypatch.setattr(bounded.Bounded, "size_on_grid", lambda self, order: sizes[0])
     monkeypatch.setattr(bounded.Bounded, "size_smooth", lambda self, order: sizes[1])
-    error = 0.02 * np.ptp(BLOB.vertices)
-    data = bt.compress(BLOB, max_error=error, effort="fast", verify=False)
+    error = 0.02 * np.ptp(creature(6000).vertices)
+    data = bt.compress(creature(6000), max_error=error, effort="fast", verify=False)
     assert describe(data).mode == mode
 
 

@@ -10,9 +10,8 @@ from beltrami.compression.contents import describe
 from beltrami.compression.spectral_head import read_spectral_head
 from beltrami.errors import FileFormatError, MeshError
 from beltrami.mesh.mesh import Mesh
+from made_once import creature
 from strategies import any_meshes
-
-BLOB = bt.shapes.blob(1200)
 
 
 def spectral(mesh, **options):
@@ -55,7 +54,7 @@ def test_other_dimensions(d):
 @pytest.mark.parametrize("unit", [1e-9, 1.0, 1e9])
 @pytest.mark.parametrize("max_error", [0.05, 1e-3])
 def test_a_bound_is_kept_in_every_unit(unit, max_error):
-    mesh = BLOB.with_vertices((BLOB.vertices + 3.0) * unit)
+    mesh = creature(1200).with_vertices((creature(1200).vertices + 3.0) * unit)
     data, _ = spectral(mesh, max_error=max_error * unit, effort="fast")
     assert describe(data).max_error <= max_error * unit * (1 + 1e-9)
 
@@ -70,10 +69,10 @@ def test_empty_and_tiny_meshes():
 def test_more_terms_more_bytes_less_error():
     sizes, errors = [], []
     for terms in (1, 4, 16, 64, 256):
-        data, back = spectral(BLOB, terms=terms, bits=9)
+        data, back = spectral(creature(1200), terms=terms, bits=9)
         assert describe(data).terms <= terms
         sizes.append(len(data))
-        errors.append(rms(BLOB, back))
+        errors.append(rms(creature(1200), back))
     assert (np.diff(sizes) > 0).all()
     assert (np.diff(errors) < 0).all()
     assert errors[-1] < 0.02 * errors[0]
@@ -97,7 +96,9 @@ def test_few_terms_are_the_linear_approximation_of_definition_21():
 @pytest.mark.chapter("P66", "P68")
 @pytest.mark.parametrize("keep_order", [False, True])
 def test_every_beginning_is_a_coarser_shape(keep_order):
-    mesh = Mesh(BLOB.vertices, BLOB.faces, {"f": np.arange(BLOB.n_vertices)})
+    mesh = Mesh(
+        creature(1200).vertices, creature(1200).faces, {"f": np.arange(creature(1200).n_vertices)}
+    )
     data, whole = spectral(mesh, bits=8, keep_order=keep_order, effort="fast")
     x = mesh.vertices if keep_order else mesh.vertices[bt.vertex_order(mesh)]
     errors = []
@@ -121,19 +122,19 @@ def test_every_beginning_is_a_coarser_shape(keep_order):
 
 
 def test_a_beginning_without_the_mean_of_each_block_is_no_shape():
-    data = bt.compress(BLOB, mode="spectral", bits=12, effort="fast")
+    data = bt.compress(creature(1200), mode="spectral", bits=12, effort="fast")
     section = next(s for s in unpack(data, "x")[1] if s.kind == SPECTRUM)
     reader = section.reader("x")
-    read_spectral_head(reader, BLOB.n_vertices)
+    read_spectral_head(reader, creature(1200).n_vertices)
     reader.varint()
     first = section.start + reader.position
     with pytest.raises(FileFormatError, match="before the first coefficient of each block"):
         bt.decompress(data[: first + 6], partial=True)
-    assert bt.decompress(data[: first + 60], partial=True).n_vertices == BLOB.n_vertices
+    assert bt.decompress(data[: first + 60], partial=True).n_vertices == creature(1200).n_vertices
 
 
 def test_only_this_mode_can_be_read_in_part():
-    data = bt.compress(BLOB, bits=8)
+    data = bt.compress(creature(1200), bits=8)
     with pytest.raises(FileFormatError, match="'positions on a grid', or not the whole of it"):
         bt.decompress(data[: len(data) // 2], partial=True)
 
@@ -143,7 +144,7 @@ def test_another_basis_is_noticed(monkeypatch):
     """E87: were the decoder's eigenvectors others, nothing would be returned."""
     from beltrami.compression import block_basis
 
-    data = bt.compress(BLOB, mode="spectral", bits=7)
+    data = bt.compress(creature(1200), mode="spectral", bits=7)
     honest = block_basis.BlockBasis.vectors
 
     def turned(self, vertices, count):
@@ -157,30 +158,31 @@ def test_another_basis_is_noticed(monkeypatch):
 
 
 def test_a_coarse_shape_takes_the_fewest_bytes_and_auto_finds_it():
-    error = 0.02 * np.ptp(BLOB.vertices)
+    error = 0.02 * np.ptp(creature(1200).vertices)
     sizes = {
-        mode: len(bt.compress(BLOB, max_error=error, mode=mode, effort="fast"))
+        mode: len(bt.compress(creature(1200), max_error=error, mode=mode, effort="fast"))
         for mode in ("grid", "smooth", "spectral")
     }
     assert sizes["spectral"] < 0.95 * min(sizes["grid"], sizes["smooth"])
-    data = bt.compress(BLOB, max_error=error, effort="fast")
+    data = bt.compress(creature(1200), max_error=error, effort="fast")
     assert (len(data), describe(data).mode) == (sizes["spectral"], "spectral")
-    fine = bt.compress(BLOB, max_error=error / 300, effort="fast")
+    fine = bt.compress(creature(1200), max_error=error / 300, effort="fast")
     assert describe(fine).mode == "grid"
 
 
 @pytest.mark.parametrize(
-    ("mesh", "part", "best"),
+    ("make", "part", "best"),
     [
-        (BLOB, 0.05, "spectral"),
-        (BLOB, 0.012, "spectral"),
-        (BLOB, 0.007, "spectral"),
-        (bt.shapes.disk(8), 0.05, "spectral"),
-        (BLOB, 0.004, "smooth"),
-        (bt.shapes.cube(8), 0.05, "grid"),
+        (creature, 0.05, "spectral"),
+        (creature, 0.012, "spectral"),
+        (creature, 0.007, "spectral"),
+        (lambda _: bt.shapes.disk(8), 0.05, "spectral"),
+        (creature, 0.004, "smooth"),
+        (lambda _: bt.shapes.cube(8), 0.05, "grid"),
     ],
 )
-def test_auto_takes_the_fewest_bytes_of_all_modes(mesh, part, best):
+def test_auto_takes_the_fewest_bytes_of_all_modes(make, part, best):
+    mesh = make(1200)
     options = {"max_error": part * np.ptp(mesh.vertices), "effort": "fast", "verify": False}
     modes = ("grid", "smooth", "spectral")
     sizes = {mode: len(bt.compress(mesh, mode=mode, **options)) for mode in modes}
@@ -190,7 +192,7 @@ def test_auto_takes_the_fewest_bytes_of_all_modes(mesh, part, best):
 
 def test_terms_belong_to_the_spectrum():
     with pytest.raises(MeshError, match="the mode 'auto' has no terms"):
-        bt.compress(BLOB, terms=5)
+        bt.compress(creature(1200), terms=5)
     for terms in (0, 10_000, 2.5):
         with pytest.raises(MeshError, match="the number of terms is"):
-            bt.compress(BLOB, mode="spectral", terms=terms)
+            bt.compress(creature(1200), mode="spectral", terms=terms)

@@ -9,8 +9,9 @@ from beltrami.diffusion.denoise import denoise
 from beltrami.diffusion.linear_filters import LINEAR
 from beltrami.diffusion.noise import noise_level
 from beltrami.mesh import shapes
+from made_once import creature
 
-BLOB = shapes.blob(2500)
+BLOB = creature(2500)
 TORUS = shapes.torus(80, 40)
 ALL = [BLOB, TORUS, shapes.cube(16), shapes.icosphere(4), shapes.cylinder(60, 30, caps=True),
        shapes.grid(40, 40, dimension=3)]  # fmt: skip

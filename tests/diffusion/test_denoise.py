@@ -29,6 +29,7 @@ from beltrami.errors import (
 )
 from beltrami.mesh import shapes
 from beltrami.mesh.mesh import Mesh
+from made_once import creature
 from strategies import moebius
 
 
@@ -58,7 +59,7 @@ def measured_again(mesh, sigma, filters, *, known):
     return noise_level(mesh.topology.adjacency, mesh.vertices, None, normals)
 
 
-BLOB = shapes.blob(2500)
+BLOB = creature(2500)
 CUBE = shapes.cube(10)
 
 

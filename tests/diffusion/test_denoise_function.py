@@ -4,10 +4,10 @@ import pytest
 from beltrami.diffusion.denoise_function import denoise_function
 from beltrami.diffusion.heat import heat
 from beltrami.errors import BeltramiError, DimensionError, MeshError, NonFiniteError
-from beltrami.mesh import shapes
 from beltrami.operators.laplacian import laplacian
+from made_once import creature
 
-BLOB = shapes.blob(2500)
+BLOB = creature(2500)
 PAIR = laplacian(BLOB)
 SMOOTH = np.sin(2 * BLOB.vertices[:, 0]) + BLOB.vertices[:, 1]
 

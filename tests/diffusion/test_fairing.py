@@ -9,6 +9,7 @@ from beltrami.diffusion.denoise import denoise
 from beltrami.diffusion.fairing import faired
 from beltrami.mesh import shapes
 from beltrami.mesh.mesh import Mesh
+from made_once import creature
 
 
 def uneven(mesh):
@@ -17,7 +18,7 @@ def uneven(mesh):
     return Mesh(away / (away**2).sum(axis=1, keepdims=True), mesh.faces[:, ::-1])
 
 
-TRUTH = uneven(shapes.blob(2500))
+TRUTH = uneven(creature(2500))
 EDGE = TRUTH.edge_lengths.mean()
 SIGMA = 0.1 * EDGE
 

@@ -13,16 +13,19 @@ from beltrami.display.page_codes import (
     quantized,
 )
 from beltrami.display.page_order import order_of
-from beltrami.mesh.shapes import blob, icosphere
+from beltrami.mesh.shapes import icosphere
+from made_once import MadeOnce, creature
 from page_reader import faces_from, moebius, values_from
 
-MESHES = {
-    "closed": icosphere(2).faces,
-    "limbs": blob(500).faces,
-    "one-sided": moebius(9).faces,
-    "apart": np.array([[5, 3, 4], [0, 1, 2], [2, 1, 6]]),
-    "three at an edge": np.array([[0, 1, 2], [1, 0, 3], [0, 1, 4], [4, 1, 5]]),
-}
+MESHES = MadeOnce(
+    {
+        "closed": icosphere(2).faces,
+        "limbs": lambda: creature(500).faces,
+        "one-sided": moebius(9).faces,
+        "apart": np.array([[5, 3, 4], [0, 1, 2], [2, 1, 6]]),
+        "three at an edge": np.array([[0, 1, 2], [1, 0, 3], [0, 1, 4], [4, 1, 5]]),
+    }
+)
 
 
 @pytest.fixture(params=MESHES, ids=str)

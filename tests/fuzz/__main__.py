@@ -23,7 +23,7 @@ from fuzz import readers
 
 FINDS = Path(".fuzz")
 LONGEST = 700  # bytes
-LONGER = {"gii": 2500, "vtu": 2500}  # XML says little in 700
+LONGER = {"gii": 2500, "vtu": 2500, "vtp": 2500}  # XML says little in 700
 MEMORY = 4096  # megabytes of the process, libraries included
 PATIENCE = 120  # seconds for an input, which may be the first to need a kernel
 _WATCHED = ("beltrami.io", "beltrami.compression", "beltrami.spectrum")

@@ -63,6 +63,7 @@ TARGETS = {
     "gz": _packed(".off.gz"),
     "gii": _packed(".gii"),
     "vtu": _packed(".vtu"),
+    "vtp": _packed(".vtp"),
 }
 
 
@@ -88,7 +89,8 @@ WORDS = [
     b"end_header\n", b"property list uchar int ", b"property double ", b"element face 1\n",
     b"element vertex 3\n", b"comment ", b"tristrips", b"format ascii 1.0\n",
     b"format binary_little_endian 1.0\n", b"vertex_indices\n", b"solid ", b"facet", b"vertex ",
-    b"endsolid", b"1e-400", b"0x1p3", b"1d5", b"+.5", b"\x1f\x8b",
+    b"endsolid", b"1e-400", b"0x1p3", b"1d5", b"+.5", b"\x1f\x8b", b"<Piece ", b"</Polys>",
+    b'format="appended" offset="0"',
 ]  # fmt: skip
 
 

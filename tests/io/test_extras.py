@@ -18,12 +18,14 @@ POINTS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0.5]]
 
 @pytest.mark.parametrize("suffix", extras.WRITERS)
 def test_round_trip(tmp_path, suffix):
-    pytest.importorskip({".vtk": "meshio", ".vtu": "meshio"}.get(suffix, "nibabel"))
+    pytest.importorskip(
+        {".vtk": "meshio", ".vtu": "meshio", ".vtp": "numpy"}.get(suffix, "nibabel")
+    )
     write_mesh(tmp_path / f"a{suffix}", Mesh(POINTS, FACES, {"f": np.arange(4.0)}))
     again = read_mesh(tmp_path / f"a{suffix}")
     assert np.array_equal(again.vertices, POINTS)
     assert again.faces.tolist() == FACES
-    if suffix in (".vtk", ".vtu"):
+    if suffix in (".vtk", ".vtp", ".vtu"):
         assert again.vertex_data["f"].tolist() == [0, 1, 2, 3]
 
 
@@ -105,7 +107,9 @@ def test_polygons(tmp_path):
     assert read_mesh(tmp_path / "a.vtk").faces.tolist() == [[0, 1, 2], [0, 2, 3]]
 
 
-@pytest.mark.parametrize("suffix", [".gii", ".vtk", ".vtu", ".glb", ".msh", ".pial", ".gii.gz"])
+@pytest.mark.parametrize(
+    "suffix", [".gii", ".vtk", ".vtp", ".vtu", ".glb", ".msh", ".pial", ".gii.gz"]
+)
 def test_broken_files(put, capfd, suffix):
     for content in (b"", b"no such file at all", b"\x1f\x8b" + b"\0" * 50):
         with pytest.raises(FileFormatError) as error:

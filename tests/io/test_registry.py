@@ -38,7 +38,7 @@ def test_unknown_suffixes(put, scattered):
         write_mesh("a.xyz", scattered)
 
 
-@pytest.mark.parametrize("suffix", [*READERS, ".off.gz", ".gii", ".vtk"])
+@pytest.mark.parametrize("suffix", [*READERS, ".off.gz", ".gii", ".vtk", ".vtp"])
 def test_missing_files_and_directories(tmp_path, suffix):
     with pytest.raises(FileNotFoundError):
         read_mesh(tmp_path / f"no{suffix}")

@@ -192,10 +192,10 @@ def test_vtu_that_is_compressed_inside(tmp_path, small, compression, place, monk
 
 
 def test_lzma_streams_are_bounded_in_memory():
-    from beltrami.io.packed_inside import _stream
+    from beltrami.io.packed_inside import one_stream
 
-    assert b"".join(_stream(lzma.compress(b"ab" * MEGA))) == b"ab" * MEGA
-    assert b"".join(_stream(lzma.compress(bytes(9))[:-1])) in (b"", bytes(9))  # and it ends
+    assert b"".join(one_stream(lzma.compress(b"ab" * MEGA))) == b"ab" * MEGA
+    assert b"".join(one_stream(lzma.compress(bytes(9))[:-1])) in (b"", bytes(9))  # and it ends
 
 
 def hidden(head):
@@ -250,7 +250,7 @@ def test_entities_that_stand_for_a_gigabyte(put, suffix):
 
 
 def test_lzma_has_no_second_stream():
-    from beltrami.io.packed_inside import _stream
+    from beltrami.io.packed_inside import one_stream
 
     with pytest.raises(ValueError, match="follows the stream"):
-        list(_stream(lzma.compress(b"a") + lzma.compress(bytes(MEGA))))
+        list(one_stream(lzma.compress(b"a") + lzma.compress(bytes(MEGA))))

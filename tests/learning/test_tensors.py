@@ -1,5 +1,6 @@
 """The operators as tensors: shapes, types, devices and gradients; nothing is trained."""
 
+import functools
 import sys
 from dataclasses import fields
 
@@ -11,27 +12,30 @@ import beltrami as bt
 from beltrami.errors import MeshError, MissingExtraError, UnknownNameError
 from beltrami.learning.operators import LearningOperators
 
-OPERATORS = bt.learning_operators(bt.shapes.torus(12, 7), 20)
+
+@functools.cache
+def operators():
+    return bt.learning_operators(bt.shapes.torus(12, 7), 20)
 
 
 def test_without_torch_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "torch", None)
     with pytest.raises(MissingExtraError, match=r"beltrami\[learning\]"):
-        OPERATORS.to("torch")
+        operators().to("torch")
 
 
 @pytest.mark.parametrize("call", [("tensorflow", {}), ("torch", {"dtype": "int8"})])
 def test_other_names(call):
     with pytest.raises(UnknownNameError):
-        OPERATORS.to(call[0], **call[1])
+        operators().to(call[0], **call[1])
 
 
 @pytest.mark.parametrize("dtype", ["float32", "float64"])
 def test_shapes_types_and_numbers(dtype):
     torch = pytest.importorskip("torch")
-    tensors = OPERATORS.to("torch", dtype=dtype)
+    tensors = operators().to("torch", dtype=dtype)
     for field in fields(LearningOperators):
-        array, tensor = getattr(OPERATORS, field.name), getattr(tensors, field.name)
+        array, tensor = getattr(operators(), field.name), getattr(tensors, field.name)
         assert tensor.dtype == getattr(torch, dtype)
         assert tensor.device == torch.device("cpu")
         assert tuple(tensor.shape) == array.shape
@@ -41,22 +45,22 @@ def test_shapes_types_and_numbers(dtype):
             assert tensor.is_coalesced()
             tensor, array = tensor.to_dense(), array.toarray()
         assert np.array_equal(tensor.numpy(), array.astype(dtype))
-    before = OPERATORS.masses.copy()
+    before = operators().masses.copy()
     tensors.masses.zero_()
-    assert np.array_equal(OPERATORS.masses, before)
+    assert np.array_equal(operators().masses, before)
 
 
 def test_devices_and_types_of_torch():
     torch = pytest.importorskip("torch")
-    moved = OPERATORS.to("torch", dtype="float64").to("meta")
+    moved = operators().to("torch", dtype="float64").to("meta")
     assert {getattr(moved, field.name).device.type for field in fields(moved)} == {"meta"}
     assert moved.masses.dtype == torch.float64
     for dtype in (torch.float32, torch.float64):
-        assert OPERATORS.to("torch", dtype=dtype).masses.dtype == dtype
+        assert operators().to("torch", dtype=dtype).masses.dtype == dtype
     with pytest.raises(UnknownNameError, match="float32"):
-        OPERATORS.to("torch", dtype=torch.float16)
+        operators().to("torch", dtype=torch.float16)
     for device in ("meta", torch.device("meta")):  # the one that every machine has
-        tensors = OPERATORS.to("torch", device=device)
+        tensors = operators().to("torch", device=device)
         for field in fields(LearningOperators):
             assert getattr(tensors, field.name).device.type == "meta"
 
@@ -74,8 +78,8 @@ def block(x, time, turn, mass, L, evals, evecs, gradX, gradY):
 def test_gradients_flow_through_the_operators():
     torch = pytest.importorskip("torch")
     torch.manual_seed(0)
-    arguments = OPERATORS.to("torch", dtype="float64").arguments
-    x = torch.randn(OPERATORS.n, 3, dtype=torch.float64, requires_grad=True)
+    arguments = operators().to("torch", dtype="float64").arguments
+    x = torch.randn(operators().n, 3, dtype=torch.float64, requires_grad=True)
     time = torch.full((3,), 0.1, dtype=torch.float64, requires_grad=True)
     turn = torch.randn(3, 3, dtype=torch.float64, requires_grad=True)
     value = block(x, time, turn, **arguments)
@@ -98,11 +102,11 @@ def test_on_a_graphics_card_they_give_the_same():
         pytest.skip("no graphics card of CUDA here")
     found = []
     for device in ("cpu", "cuda"):
-        tensors = OPERATORS.to("torch", device=device, dtype="float64")
+        tensors = operators().to("torch", device=device, dtype="float64")
         for field in fields(LearningOperators):
             assert getattr(tensors, field.name).device.type == device
         torch.manual_seed(0)
-        x, turn = torch.randn(OPERATORS.n, 3).double(), torch.randn(3, 3).double()
+        x, turn = torch.randn(operators().n, 3).double(), torch.randn(3, 3).double()
         x, turn = (given.to(device).requires_grad_() for given in (x, turn))
         time = torch.full((3,), 0.1, dtype=torch.float64, device=device, requires_grad=True)
         value = block(x, time, turn, **tensors.arguments)
@@ -114,7 +118,7 @@ def test_on_a_graphics_card_they_give_the_same():
 
 def test_a_batch_axis_can_be_added():
     pytest.importorskip("torch")
-    tensors = OPERATORS.to("torch")
+    tensors = operators().to("torch")
     assert tensors.gradient_x.unsqueeze(0)[0].is_sparse
     assert repr(tensors).startswith("<Tensors: 84 vertices, 20 eigenpairs, torch.float32")
 

@@ -4,23 +4,26 @@ import pytest
 import beltrami as bt
 from beltrami.errors import DimensionError
 from beltrami.mesh import door
+from made_once import MadeOnce
 
 BALL = bt.shapes.icosphere(1)
 F = np.ones(BALL.n_vertices)
-NOT_MESHES = {
-    "None": None,
-    "pair of arrays": (BALL.vertices, BALL.faces),
-    "lists": [[0.0, 1.0], [[0]]],
-    "path": "bunny.obj",
-    "array": BALL.vertices,
-    "number": 3,
-    "class": bt.Mesh,
-    "Grid": bt.Grid((5, 6)),
-    "Laplacian": bt.laplacian(BALL),
-    "PointCloud": bt.PointCloud(BALL.vertices),
-    "matrix": bt.laplacian(BALL).weights,
-    "triangles": bt.intrinsic_delaunay(BALL),
-}
+NOT_MESHES = MadeOnce(
+    {
+        "None": None,
+        "pair of arrays": (BALL.vertices, BALL.faces),
+        "lists": [[0.0, 1.0], [[0]]],
+        "path": "bunny.obj",
+        "array": BALL.vertices,
+        "number": 3,
+        "class": bt.Mesh,
+        "Grid": bt.Grid((5, 6)),
+        "Laplacian": lambda: bt.laplacian(BALL),
+        "PointCloud": lambda: bt.PointCloud(BALL.vertices),
+        "matrix": lambda: bt.laplacian(BALL).weights,
+        "triangles": lambda: bt.intrinsic_delaunay(BALL),
+    }
+)
 OF_A_MESH = {
     "areas": bt.vertex_areas,
     "edge areas": bt.edge_areas,

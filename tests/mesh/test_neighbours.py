@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 
 from beltrami.errors import DimensionError, MeshError
+from beltrami.io.registry import read_mesh, write_mesh
 from beltrami.mesh.convert import as_mesh
 from beltrami.mesh.mesh import Mesh
 from beltrami.mesh.shapes import icosphere
@@ -181,3 +182,20 @@ def test_polyscope_shows_the_functions():
     assert np.allclose(np.array(colour) * 255, mesh.vertex_data["color"][5])
     icosphere(0).to("polyscope")
     assert polyscope.get_surface_mesh("beltrami mesh").n_vertices() == 12
+
+
+@pytest.mark.parametrize("binary", [True, False])
+def test_files_of_vtk_there_and_back(binary, tmp_path):
+    """Surfaces as .vtp: what we write, pyvista reads, and the other way round."""
+    pyvista, mesh = installed("pyvista"), dressed()
+    write_mesh(tmp_path / "ours.vtp", mesh)
+    theirs = pyvista.read(tmp_path / "ours.vtp")
+    theirs.save(tmp_path / "theirs.vtp", binary=binary)
+    back = read_mesh(tmp_path / "theirs.vtp")
+    for x in (np.asarray(theirs.points), back.vertices):
+        np.testing.assert_array_equal(x, mesh.vertices)
+    for faces in (theirs.faces.reshape(-1, 4)[:, 1:], back.faces):
+        np.testing.assert_array_equal(faces, mesh.faces)
+    for name, array in mesh.vertex_data.items():
+        np.testing.assert_array_equal(np.asarray(theirs.point_data[name]), array)
+        np.testing.assert_array_equal(back.vertex_data[name], array)

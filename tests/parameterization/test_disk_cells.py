@@ -14,26 +14,29 @@ from beltrami.errors import (
     UnreferencedVertexError,
 )
 from beltrami.mesh.mesh import Mesh
-from beltrami.mesh.shapes import blob, cylinder, grid, icosphere, tetrahedron, torus
+from beltrami.mesh.shapes import cylinder, grid, icosphere, tetrahedron, torus
 from beltrami.parameterization.disk_cells import CELL_METHODS, segment_into_disks
+from made_once import MadeOnce, creature
 from strategies import arrays, hull, moebius, ring_torus, sheet
 from surfaces_to_part import is_disk, side_by_side, two_holes
 
-SURFACES = {
-    "sphere": icosphere(2),
-    "torus": torus(16, 12),
-    "genus 2": two_holes(),
-    "cylinder": cylinder(16, 5),
-    "square": grid(8, 8),
-    "blob": blob(1000),
-    "tetrahedron": tetrahedron(),
-    "two parts": side_by_side(icosphere(2), torus(12, 8)),
-    "triangle": Mesh(np.eye(3), [[0, 1, 2]]),
-    "three faces on an edge": Mesh(
-        [[0, 0, 0], [0, 0, 1], [1, 0, 0], [-1, 1, 0], [-1, -1, 0]],
-        [[0, 1, 2], [0, 1, 3], [0, 1, 4]],
-    ),
-}
+SURFACES = MadeOnce(
+    {
+        "sphere": icosphere(2),
+        "torus": torus(16, 12),
+        "genus 2": two_holes(),
+        "cylinder": cylinder(16, 5),
+        "square": grid(8, 8),
+        "blob": lambda: creature(1000),
+        "tetrahedron": tetrahedron(),
+        "two parts": side_by_side(icosphere(2), torus(12, 8)),
+        "triangle": Mesh(np.eye(3), [[0, 1, 2]]),
+        "three faces on an edge": Mesh(
+            [[0, 0, 0], [0, 0, 1], [1, 0, 0], [-1, 1, 0], [-1, -1, 0]],
+            [[0, 1, 2], [0, 1, 3], [0, 1, 4]],
+        ),
+    }
+)
 
 
 @pytest.mark.chapter("P69")

@@ -27,6 +27,7 @@ from beltrami.parameterization.atlas import atlas
 from beltrami.parameterization.certificate import certify
 from beltrami.parameterization.flatten import flatten
 from beltrami.parameterization.parameterize import parameterize
+from made_once import MadeOnce, creature
 from meshes_of_the_errata import bad, cur, flipped
 from strategies import arrays, hull, moebius, ring_torus, sheet
 
@@ -37,18 +38,20 @@ def tube(around, along):
     return Mesh(mesh.vertices, mesh.faces[:-1])
 
 
-SURFACES = {
-    "disk": disk(4),
-    "curved sheet": cur(),
-    "not Delaunay": bad(),
-    "sphere": icosphere(2),
-    "tetrahedron": tetrahedron(),
-    "torus": torus(16, 12),
-    "cylinder": cylinder(16, 5),
-    "one triangle": Mesh(np.eye(3), [[0, 1, 2]]),
-    "sphere less a triangle": Mesh(icosphere(3).vertices, icosphere(3).faces[1:]),
-    "blob": blob(1500),
-}
+SURFACES = MadeOnce(
+    {
+        "disk": disk(4),
+        "curved sheet": cur(),
+        "not Delaunay": bad(),
+        "sphere": icosphere(2),
+        "tetrahedron": tetrahedron(),
+        "torus": torus(16, 12),
+        "cylinder": cylinder(16, 5),
+        "one triangle": Mesh(np.eye(3), [[0, 1, 2]]),
+        "sphere less a triangle": Mesh(icosphere(3).vertices, icosphere(3).faces[1:]),
+        "blob": lambda: creature(1500),
+    }
+)
 
 
 @pytest.mark.chapter("T21", "U38", "P69")

@@ -8,9 +8,10 @@ from hypothesis import given, settings
 
 from beltrami.mesh.cut import shortest_paths
 from beltrami.mesh.mesh import Mesh
-from beltrami.mesh.shapes import blob, disk, grid, icosphere
+from beltrami.mesh.shapes import disk, grid, icosphere
 from beltrami.mesh.tree_cotree import cut_to_disk
 from beltrami.parameterization.thinning import thinned
+from made_once import MadeOnce, creature
 from strategies import planar_meshes
 
 
@@ -18,12 +19,14 @@ def less_one(mesh):
     return Mesh(mesh.vertices, mesh.faces[1:])
 
 
-DISKS = {
-    "ball": less_one(icosphere(3)),
-    "cut blob": cut_to_disk(blob(700)).mesh,
-    "grid": grid(14, 11),
-    "disk": disk(9),
-}
+DISKS = MadeOnce(
+    {
+        "ball": less_one(icosphere(3)),
+        "cut blob": lambda: cut_to_disk(creature(700)).mesh,
+        "grid": grid(14, 11),
+        "disk": disk(9),
+    }
+)
 
 
 def rings(coarse):

@@ -23,12 +23,16 @@ from beltrami.solvers.rayleigh import projected, rotate, rotation
 from beltrami.solvers.residuals import residuals
 from beltrami.solvers.sign_rule import fix_signs
 from beltrami.solvers.skinny import add_products, add_transposed_products, padded
+from made_once import MadeOnce, creature
 
-PAIR = bt.laplacian(bt.shapes.blob(620))
-FULL = bt.laplacian(bt.shapes.blob(620), mass="consistent")
+PAIRS = MadeOnce({
+    "diagonal": lambda: bt.laplacian(creature(620)),
+    "consistent": lambda: bt.laplacian(creature(620), mass="consistent"),
+})  # fmt: skip
 
 
-def pencil(pair=PAIR, k=12):
+def pencil(pair=None, k=12):
+    pair = pair or PAIRS["diagonal"]
     return make_pencil(pair.stiffness, pair.mass, k, pair.domain.vertices)
 
 
@@ -36,8 +40,9 @@ def spectrum(given):
     return scipy.linalg.eigh(given.stiffness.toarray(), given.mass.toarray())
 
 
-@pytest.mark.parametrize("pair", [PAIR, FULL])
-def test_the_pencil_is_the_pair_scaled_and_permuted(pair):
+@pytest.mark.parametrize("kind", PAIRS)
+def test_the_pencil_is_the_pair_scaled_and_permuted(kind):
+    pair = PAIRS[kind]
     made = pencil(pair)
     order = made.elimination.order
     root = np.sqrt(pair.mass.diagonal())
@@ -46,7 +51,7 @@ def test_the_pencil_is_the_pair_scaled_and_permuted(pair):
     B = (pair.mass.toarray() / root / root[:, None])[order][:, order]
     assert np.allclose(made.stiffness.toarray(), L, rtol=1e-14)
     assert np.allclose(made.mass.toarray(), B, rtol=1e-14)
-    assert made.plain == (pair is PAIR)
+    assert made.plain == (kind == "diagonal")
     assert abs(made.stiffness @ made.kernel).max() < 1e-12
     assert np.allclose(made.kernel.T @ made.mass @ made.kernel, 1)
     values, X = spectrum(made)
@@ -59,7 +64,7 @@ def test_the_pencil_is_the_pair_scaled_and_permuted(pair):
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_inverses(dtype):
-    made = pencil(FULL)
+    made = pencil(PAIRS["consistent"])
     b = np.random.default_rng(3).standard_normal((made.n, 5)).astype(dtype)
     A = (made.stiffness + 0.3 * made.mass).toarray()
     inverse = definite_inverse(made, -0.3, dtype)
@@ -100,8 +105,9 @@ def test_columns_across_panels():
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-@pytest.mark.parametrize("pair", [PAIR, FULL])
-def test_blocks_are_orthonormal_whatever_is_left_of_them(pair, dtype):
+@pytest.mark.parametrize("kind", PAIRS)
+def test_blocks_are_orthonormal_whatever_is_left_of_them(kind, dtype):
+    pair = PAIRS[kind]
     made, rng = pencil(pair), np.random.default_rng(11)
     rounding = np.finfo(dtype).eps
     known = Columns(made.n, dtype)
@@ -123,7 +129,7 @@ def test_blocks_are_orthonormal_whatever_is_left_of_them(pair, dtype):
 
 
 def test_residuals_against_numpy():
-    for pair in (PAIR, FULL):
+    for pair in PAIRS.values():
         made, rng = pencil(pair), np.random.default_rng(13)
         X, values = rng.standard_normal((made.n, 9)), rng.uniform(0.1, 2, 4)
         found = residuals(made, X, slice(3, 7), values, np.float64)
@@ -140,7 +146,7 @@ def test_residuals_against_numpy():
 @pytest.mark.parametrize("fresh", [True, False])
 def test_rayleigh_ritz_in_the_form_of_a_correction(fresh):
     """Against the projection of L on Z itself, in float64."""
-    for pair in (PAIR, FULL):
+    for pair in PAIRS.values():
         made, rng = pencil(pair), np.random.default_rng(17)
         exact, vectors = spectrum(made)
         L, B = made.stiffness.toarray(), made.mass.toarray()
@@ -162,7 +168,7 @@ def test_rayleigh_ritz_in_the_form_of_a_correction(fresh):
 
 
 def test_davidson_separates_what_is_beyond_the_last():
-    for pair in (PAIR, FULL):
+    for pair in PAIRS.values():
         made = pencil(pair)
         exact, vectors = spectrum(made)
         mixed = np.ascontiguousarray(vectors[:, 1:6])
@@ -182,8 +188,9 @@ def test_signs():
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-@pytest.mark.parametrize("pair", [PAIR, FULL])
-def test_lanczos_with_restarts(pair, dtype):
+@pytest.mark.parametrize("kind", PAIRS)
+def test_lanczos_with_restarts(kind, dtype):
+    pair = PAIRS[kind]
     made = pencil(pair)
     exact = spectrum(made)[0]
     inverse = definite_inverse(made, -0.1, dtype)
@@ -219,8 +226,8 @@ def test_the_search_restarts_where_memory_is_short(monkeypatch):
 
     monkeypatch.setattr(Lanczos, "restart", restart)
     monkeypatch.setattr(nearest_pairs, "_most_columns", lambda k, b: 40)
-    L, B = PAIR.stiffness, PAIR.mass
-    found = eigenpairs(L, B, 13, coordinates=PAIR.domain.vertices)
+    L, B = PAIRS["diagonal"].stiffness, PAIRS["diagonal"].mass
+    found = eigenpairs(L, B, 13, coordinates=PAIRS["diagonal"].domain.vertices)
     assert kept
     assert max(kept) <= 40
     assert found.computation.basis <= 40
@@ -250,8 +257,8 @@ def test_the_census_notices_one_that_is_missing_and_one_too_many(near):
 
 def test_pairs_that_the_search_missed_are_found_by_the_census(monkeypatch):
     """Lanczos loses two pairs; certify=True brings them back, and without a way to it fails."""
-    L, B = PAIR.stiffness, PAIR.mass
-    right = eigenpairs(L, B, 12, coordinates=PAIR.domain.vertices)
+    L, B = PAIRS["diagonal"].stiffness, PAIRS["diagonal"].mass
+    right = eigenpairs(L, B, 12, coordinates=PAIRS["diagonal"].domain.vertices)
     original = finding.polish
 
     def forgetful(*given):
@@ -264,15 +271,15 @@ def test_pairs_that_the_search_missed_are_found_by_the_census(monkeypatch):
         )
 
     monkeypatch.setattr(finding, "polish", forgetful)
-    wrong = eigenpairs(L, B, 12, coordinates=PAIR.domain.vertices)
+    wrong = eigenpairs(L, B, 12, coordinates=PAIRS["diagonal"].domain.vertices)
     assert abs(wrong.values - right.values).max() > 1
-    mended = eigenpairs(L, B, 12, coordinates=PAIR.domain.vertices, certify=True)
+    mended = eigenpairs(L, B, 12, coordinates=PAIRS["diagonal"].domain.vertices, certify=True)
     assert np.allclose(mended.values, right.values, rtol=1e-9)
     assert abs(mended.vectors - right.vectors).max() < 1e-5
     assert mended.computation.counted_within > right.values[10]
     monkeypatch.setattr(completing, "_SEARCHES", 0)
     with pytest.raises(ConvergenceError, match="were found"):
-        eigenpairs(L, B, 12, coordinates=PAIR.domain.vertices, certify=True)
+        eigenpairs(L, B, 12, coordinates=PAIRS["diagonal"].domain.vertices, certify=True)
 
 
 def test_what_cannot_be_polished_is_refused():

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from beltrami._arrays import Floats
 from beltrami._optional import require
@@ -19,7 +18,9 @@ from beltrami.io.gltf import read_scene
 from beltrami.io.packed_inside import require_room
 from beltrami.io.source import Source, plain_file
 from beltrami.io.unpacking import Room, room_of
-from beltrami.io.vtk_polydata import is_polydata, read_polydata
+from beltrami.io.vtk_polydata import PolyData, is_polydata, read_polydata
+from beltrami.io.vtp import read_vtp
+from beltrami.io.vtp_write import common, vtp_bytes
 from beltrami.mesh.mesh import Mesh
 
 _MESHIO = (".vtk", ".vtu", ".msh", ".mesh", ".inp")
@@ -89,7 +90,14 @@ def _read_vtk(place: Path, room: Room) -> Any:
     source = Source(place)
     if not is_polydata(source):
         return _read_meshio(place, room)
-    found = read_polydata(source)
+    return _parts(read_polydata(source))
+
+
+def _read_vtp(place: Path, room: Room) -> Any:
+    return _parts(read_vtp(Source(place), room))
+
+
+def _parts(found: PolyData) -> Any:
     if found.uv is None or found.uv.shape != (len(found.points), 2):
         return found.points, found.faces, found.data
     uv = np.where(np.isfinite(found.uv), found.uv, np.nan)[found.faces]
@@ -150,9 +158,13 @@ def _encode_freesurfer(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
         return place.read_bytes()
 
 
+def _encode_vtp(mesh: Mesh, vertices: Floats, _suffix: str) -> bytes:
+    return vtp_bytes(mesh, vertices)
+
+
 def _encode_meshio(mesh: Mesh, vertices: Floats, suffix: str) -> bytes:
     meshio = require("meshio", "io", f"writing {suffix}")
-    data = {name: _common(array) for name, array in mesh.vertex_data.items()}
+    data = {name: common(array) for name, array in mesh.vertex_data.items()}
     for name, array in data.items():
         _require_holdable(name, array.shape[1:], suffix)
     found = meshio.Mesh(np.array(vertices), [("triangle", np.array(mesh.faces))], point_data=data)
@@ -177,26 +189,18 @@ def _require_holdable(name: str, columns: tuple[int, ...], suffix: str) -> None:
         )
 
 
-def _common(array: NDArray[Any]) -> NDArray[Any]:
-    """Return the array in a type that VTK has: truth values as bytes, as in PLY."""
-    kind = array.dtype
-    if kind.kind == "b":
-        return array.astype(np.uint8)
-    if kind.kind == "f" and kind.itemsize not in (4, 8):
-        return array.astype(np.float32 if kind.itemsize < 4 else np.float64)
-    return array
-
-
 READERS: dict[str, Callable[[Path, Room], Any]] = {
     ".gii": _read_gifti,
     **dict.fromkeys(_FREESURFER, _read_freesurfer),
     **dict.fromkeys(_MESHIO, _read_meshio),
     ".vtk": _read_vtk,
+    ".vtp": _read_vtp,
     **dict.fromkeys(_GLTF, _read_gltf),
 }
 WRITERS: dict[str, Callable[[Mesh, Floats, str], bytes]] = {
     ".gii": _encode_gifti,
     **dict.fromkeys(_FREESURFER, _encode_freesurfer),
     ".vtk": _encode_meshio,
+    ".vtp": _encode_vtp,
     ".vtu": _encode_meshio,
 }

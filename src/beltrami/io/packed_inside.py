@@ -82,7 +82,7 @@ def _of_vtu(path: Path, _name: object) -> Iterator[bytes]:
     compressor = root.get("compressor")
     if compressor is None:
         return
-    unpack = _stream if compressor == "vtkLZMADataCompressor" else inflated
+    unpack = one_stream if compressor == "vtkLZMADataCompressor" else inflated
     kind = np.dtype(
         _ORDERS[root.get("byte_order", "LittleEndian")] + _HEADS[root.get("header_type", "UInt32")]
     )
@@ -161,7 +161,7 @@ def _decoded(text: str, at: int, size: int) -> bytes:
     return base64.b64decode(text[at : at + _letters(size)])[:size]
 
 
-def _stream(data: bytes) -> Iterator[bytes]:
+def one_stream(data: bytes) -> Iterator[bytes]:
     """Decompress one stream of LZMA, a block at a time; no other one may follow."""
     unpacker = lzma.LZMADecompressor(memlimit=1 << 28)
     while not unpacker.eof:

@@ -61,12 +61,12 @@ def read_mesh(
 ) -> Mesh:
     r"""Read a triangle mesh from a file.
 
-    OBJ, OFF, PLY, STL and VTK's legacy surfaces are read here, checked byte by byte; the extra
-    ``io`` adds GIFTI, FreeSurfer, glTF, other VTK files and more. Any of them may be compressed,
-    as in ``mesh.obj.gz``. Polygons are cut into triangles from their first corner. The vertices
-    stay in the order of the file, and nothing is merged, except what a format has to part: in STL
-    exactly equal corners are one vertex, in glTF vertices that differ only in their texture
-    coordinates.
+    OBJ, OFF, PLY, STL and VTK's surfaces (``.vtp``, and legacy ``.vtk``) are read here, checked
+    byte by byte; the extra ``io`` adds GIFTI, FreeSurfer, glTF, other VTK files and more. Any of
+    them may be compressed, as in ``mesh.obj.gz``. Polygons are cut into triangles from their
+    first corner. The vertices stay in the order of the file, and nothing is merged, except what a
+    format has to part: in STL exactly equal corners are one vertex, in glTF vertices that differ
+    only in their texture coordinates.
 
     Parameters
     ----------
@@ -82,8 +82,8 @@ def read_mesh(
     Returns
     -------
     Mesh
-        With ``vertex_data`` (PLY, COFF, NOFF, coloured OBJ, glTF's normals and colours, as sRGB
-        values in [0, 1]) and ``corner_uv`` (OBJ, PLY, glTF).
+        With ``vertex_data`` (PLY, VTK, COFF, NOFF, coloured OBJ, glTF's normals and colours, as
+        sRGB values in [0, 1]) and ``corner_uv`` (OBJ, PLY, VTK, glTF).
 
     Raises
     ------
@@ -127,10 +127,11 @@ def write_mesh(
 
     What a format cannot hold is left out: OBJ keeps coordinates, texture coordinates and the
     vertex data "color"; OFF coordinates, "color" and "normal"; PLY coordinates, all numeric
-    vertex data, with their types, and texture coordinates; STL only coordinates, rounded to 32
-    bits, as in GIFTI and FreeSurfer's files (``lh.pial`` ...); GLB, in 32 bits too, what OBJ keeps,
-    and normals, so that viewers shade it smoothly (see ``glb_bytes``). Everything else reads back
-    bit for bit. A flat mesh (d = 2) is written with z = 0.
+    vertex data, with their types, and texture coordinates; VTP too, but texture coordinates only
+    if no vertex has two pairs of them; STL only coordinates, rounded to 32 bits, as in GIFTI and
+    FreeSurfer's files (``lh.pial`` ...); GLB, in 32 bits too, what OBJ keeps, and normals, so that
+    viewers shade it smoothly (see ``glb_bytes``). Everything else reads back bit for bit. A flat
+    mesh (d = 2) is written with z = 0.
 
     Parameters
     ----------

@@ -104,7 +104,7 @@ class VtkCursor:
             read = self.source.data[begin : self.position].view(dtype.newbyteorder(">"))
             return read.astype(dtype)
         values = np.empty(count)
-        self.position, read_so_far = _numbers(self.source.data, self.position, values)
+        self.position, read_so_far = read_numbers(self.source.data, self.position, values)
         if read_so_far < count:
             raise self.source.unexpected(self.position, f"a number ({read_so_far} of {count})")
         with np.errstate(invalid="ignore", over="ignore"):
@@ -115,7 +115,7 @@ class VtkCursor:
 
 
 @kernel
-def _numbers(b: Any, p: Any, values: Any) -> Any:
+def read_numbers(b: Any, p: Any, values: Any) -> Any:
     """Read numbers parted by blanks and ends of lines: (position, how many were read)."""
     end = b.size
     for k in range(values.size):
