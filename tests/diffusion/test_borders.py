@@ -5,7 +5,7 @@ import pytest
 
 from beltrami.diffusion.blind import blind_choice
 from beltrami.diffusion.candidates import Bench, along_normals, filtered
-from beltrami.diffusion.choice import ALL, LOW_PASSES, apply, choose, with_borders
+from beltrami.diffusion.choice import ALL, apply, choose, with_borders
 from beltrami.diffusion.denoise import denoise
 from beltrami.diffusion.linear_filters import (
     AT_BORDERS,
@@ -145,7 +145,7 @@ def test_they_are_tried_where_there_are_borders():
     assert with_borders(LINEAR) == (*LINEAR, *AT_BORDERS)
     assert with_borders(ALL)[: len(LINEAR)] == LINEAR
     assert set(with_borders(ALL)) == {*ALL, *AT_BORDERS}
-    assert len(with_borders(ALL)) == 128
+    assert len(with_borders(ALL)) == 131
     closed, _ = noisy(shapes.icosphere(3), 0.2)
     assert blind_choice(closed, None, 10**6, linear=True)[1].filters == LINEAR
     # patches have borders that the mesh has not
@@ -156,19 +156,21 @@ def test_they_are_tried_where_there_are_borders():
 
 @pytest.mark.chapter("P43")
 @pytest.mark.parametrize("level", [0.1, 0.25])
-def test_what_is_near_the_border_is_denoised_nearly_as_well_as_the_rest(level):
-    """Neither shape nor seed was used to choose anything."""
+def test_they_leave_less_noise_of_open_shapes(level):
+    """Nothing was chosen on this shape."""
     plane = shapes.grid(32, 32, dimension=3)
     x, y, _ = plane.vertices.T
     truth = plane.with_vertices(np.stack([x, y, 0.4 * x**2 * y + 0.3 * y**2], axis=1))
-    mesh, sigma = noisy(truth, level, seed=4)
-    bench, sample = Bench.of(mesh), sample_of(mesh, 10**6)
-    with_, without = (
-        apply(mesh, bench, choose(sample, sigma, truth.vertex_normals, filters))
-        for filters in (with_borders(LOW_PASSES), LOW_PASSES)
-    )
-    assert angle(with_, truth) < 0.92 * angle(without, truth)
-    assert rms(with_, truth) < 0.95 * rms(without, truth)
+    errors = []
+    for seed in range(3):
+        mesh, sigma = noisy(truth, level, seed)
+        bench, sample = Bench.of(mesh), sample_of(mesh, 10**6)
+        for filters in (with_borders(LINEAR), LINEAR):
+            x = apply(mesh, bench, choose(sample, sigma, truth.vertex_normals, filters))
+            errors.append((angle(x, truth), rms(x, truth)))
+    with_, without = np.reshape(errors, (3, 2, 2)).mean(axis=0)
+    assert with_[0] < 0.88 * without[0]
+    assert with_[1] < 0.96 * without[1]
 
 
 def test_the_border_of_a_tube_stays_a_circle_in_its_plane():

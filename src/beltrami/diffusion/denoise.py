@@ -150,7 +150,7 @@ def denoise(
     The level of the noise is measured along the normals (``noise_level``), and once more, if the
     shape is smooth, by what low passes of many strengths remove alike. Then 95 filters are
     tried: low passes, of which some look less across ridges and creases, bilateral and guided
-    filters of the normals, and normals of small total variation, of many strengths; 33 more where
+    filters of the normals, and normals of small total variation, of many strengths; 36 more where
     there are borders, low passes that average borders along themselves; and they are mixed
     with those weights that make Stein's unbiased estimate of the error least. The result is
     filtered once more, by normals, if that lowers the estimate. Last, where there are vertices

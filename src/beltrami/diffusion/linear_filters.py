@@ -24,7 +24,7 @@ _DEGREE = 500  # at most
 _CUTS = np.geomspace(2, 0.004, 16)
 _CUTS_IN_PARTS = np.geomspace(2, 0.01, 8)
 _CONTRASTS = (0.15, 0.3, 0.5)
-_CUTS_AT_BORDERS = np.geomspace(0.8, 0.01, 11)
+_CUTS_AT_BORDERS = np.geomspace(0.8, 0.006, 12)
 _SHORTEST = 1e-3  # mean lengths: edges below it weigh no more
 _LEAST = 1e-12  # of the weight of an edge, that a crease leaves
 
