@@ -103,7 +103,8 @@ def best_filter(truth: Any, mesh: Any, *, linear: bool = False) -> tuple[float, 
     """Return the least errors of the filters that are mixed, each alone, knowing the truth."""
     candidates = package("beltrami.diffusion.candidates")
     low = package("beltrami.diffusion.linear_filters")
-    filters = low.LINEAR if linear else (*low.LINEAR, *low.IN_PARTS, *candidates.OF_NORMALS)
+    alike = low.LINEAR if mesh.is_closed else (*low.LINEAR, *low.AT_BORDERS)
+    filters = alike if linear else (*alike, *low.IN_PARTS, *candidates.OF_NORMALS)
     bench = candidates.Bench.of(mesh)
     found = [errors(truth, x) for x in candidates.filtered(mesh, bench, filters)]
     return min(one[0] for one in found), min(one[1] for one in found)

@@ -16,6 +16,7 @@ from beltrami.diffusion.choice import (
     Choice,
     apply,
     choose,
+    with_borders,
 )
 from beltrami.diffusion.colour import NoiseColour, noise_colour, with_colour
 from beltrami.diffusion.linear_filters import LINEAR, Linear, equal_rows
@@ -58,14 +59,19 @@ def blind_choice(
     few = linear or mesh.n_vertices < _SMALL
     known = noise is not None or (odd and colour is None)
     alike = partial(choose, sample, known=known, evening=bench.evening, colour=colour)
+    low_passes, filters = (
+        LINEAR if few else LOW_PASSES,
+        LINEAR if few else LOW_PASSES if odd else ALL,
+    )
+    if mesh.topology.on_boundary[sample.vertices[sample.core]].any():
+        low_passes, filters = with_borders(low_passes), with_borders(filters)
     for _ in range(looks):
-        low = alike(float(sigma), normals, LINEAR if few else LOW_PASSES, caution=CAUTION_ON_SMOOTH)
+        low = alike(float(sigma), normals, low_passes, caution=CAUTION_ON_SMOOTH)
         normals = _normals(sample.mesh, bench.evening, low)
         if noise is None and colour is None:
             A = sample.mesh.topology.adjacency
             again = noise_level(A, sample.mesh.vertices, edge, normals)
             sigma = again.spread if odd else again.sigma
-    filters = LINEAR if few else LOW_PASSES if odd else ALL
     return found, alike(float(sigma), normals, filters), bench
 
 

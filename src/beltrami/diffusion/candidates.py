@@ -14,6 +14,7 @@ from beltrami.diffusion.linear_filters import (
     Linear,
     equal_rows,
     low_passed,
+    rows_along_borders,
     rows_by_length,
     rows_by_normals,
 )
@@ -26,6 +27,7 @@ from beltrami.solvers.locality import LocalRows
 _VARIATION_ROUNDS = 100
 EVENING = Linear(0.5)  # leaves normals that tell the directions of the noise
 EVENING_IF_STRONG = Linear(0.2)
+_EQUAL, _BY_LENGTH = Linear(1.0), Linear(1.0, by_length=True)
 
 
 @dataclass(frozen=True)
@@ -125,13 +127,12 @@ def filtered(
     """
     from_here = mesh if start is None else mesh.with_vertices(start)
     rounds = _all_rounds(from_here, bench, [f for f in filters if isinstance(f, OfNormals)])
-    in_parts = _rows_in_parts(from_here, bench, [f for f in filters if isinstance(f, Linear)])
+    rows = _all_rows(from_here, bench, [f for f in filters if isinstance(f, Linear)])
     found = []
     for one in filters:
         if isinstance(one, Linear):
-            alike = bench.rows_by_length if one.by_length else bench.rows
-            rows = in_parts[one.contrast] if one.in_parts else alike
-            found.append(along_normals(mesh, low_passed(rows, from_here.vertices, one)))
+            moved = low_passed(rows[one.kind], from_here.vertices, one)
+            found.append(along_normals(mesh, moved))
         elif isinstance(one, OfVariation):
             found.append(_of_variation(from_here, one.fidelity))
         else:
@@ -140,13 +141,18 @@ def filtered(
     return found
 
 
-def _rows_in_parts(mesh: Mesh, bench: Bench, filters: list[Linear]) -> dict[float, LocalRows]:
-    """Return W̃ of each contrast, by the normals of the evened mesh."""
-    contrasts = {one.contrast for one in filters if one.in_parts}
-    if not contrasts:
-        return {}
-    evened = mesh.with_vertices(low_passed(bench.rows, mesh.vertices, bench.evening))
-    return {contrast: rows_by_normals(evened, contrast) for contrast in contrasts}
+def _all_rows(mesh: Mesh, bench: Bench, filters: list[Linear]) -> dict[Linear, LocalRows]:
+    """Return W̃ of each kind, by the normals and lengths of the evened mesh."""
+    found = {_EQUAL: bench.rows, _BY_LENGTH: bench.rows_by_length}
+    wanted = {one.kind for one in filters} - set(found)
+    if wanted:
+        evened = mesh.with_vertices(low_passed(bench.rows, mesh.vertices, bench.evening))
+    for kind in wanted:
+        if kind.in_parts:
+            found[kind] = rows_by_normals(evened, kind.contrast)
+        else:
+            found[kind] = rows_along_borders(evened, kind.along, by_length=kind.by_length)
+    return found
 
 
 def _all_rounds(

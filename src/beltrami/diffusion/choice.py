@@ -16,12 +16,13 @@ from beltrami.diffusion.candidates import (
     SECOND,
     Bench,
     Filter,
+    OfNormals,
     along_normals,
     filtered,
 )
 from beltrami.diffusion.colour import NoiseColour
 from beltrami.diffusion.corrections import NONE, Corrections, best_corrections
-from beltrami.diffusion.linear_filters import IN_PARTS, LINEAR, Linear
+from beltrami.diffusion.linear_filters import AT_BORDERS, IN_PARTS, LINEAR, Linear
 from beltrami.diffusion.patches import Sample
 from beltrami.diffusion.risk import best_mixture, mixture_risk
 from beltrami.mesh.mesh import Mesh
@@ -150,13 +151,14 @@ def choose(
 ) -> Choice:
     """Choose mixtures and corrections for noise of the level σ along ``normals``, on a sample.
 
-    Of ``filters``, the first ones are ``LINEAR``; there is only the first mixture unless they are
-    ``ALL``. If σ is not ``known``, a better one may be found. Mixtures are chosen as if σ were
-    ``caution`` times as large, and more where there is little but noise to fit; filters look at the
-    mesh after ``evening``. Noise of a ``colour`` is probed by noise of the same: Stein's estimate
-    with its covariance.
+    Of ``filters``, the first ones are ``LINEAR``; there is only the first mixture unless some are
+    ``OfNormals``. If σ is not ``known``, a better one may be found. Mixtures are chosen as if σ
+    were ``caution`` times as large, and more where there is little but noise to fit; filters look
+    at the mesh after ``evening``. Noise of a ``colour`` is probed by noise of the same: Stein's
+    estimate with its covariance.
     """
-    plain = filters != ALL
+    plain = not any(isinstance(one, OfNormals) for one in filters)
+    simple = sum(isinstance(one, Linear) and not one.in_parts for one in filters)
     mesh = sample.mesh
     bench = Bench.of(mesh, evening)
     probes = [_PROBE * sigma * along[:, None] * normals for along in _directions(bench, colour)]
@@ -172,7 +174,7 @@ def choose(
     if level is not None:  # what is left of the noise is all there is of the error
         trial = replace(trial, caution=max(caution, CAUTION_ON_SMOOTH))
     sigma = sigma if known or level is None else level
-    first, risk = trial.mixture(here, there, sigma, len(LINEAR), sure)
+    first, risk = trial.mixture(here, there, sigma, simple, sure)
     if plain:
         return Choice(sigma, filters, first, np.zeros(0), risk)
     here = _seconds(mesh, bench, _mixed(first, here))
@@ -186,6 +188,11 @@ def choose(
     done = _mixed(second, here)
     corrections = best_corrections(mesh, sample.core, done, moved, sigma, risk)
     return Choice(sigma, filters, first, second, risk, corrections)
+
+
+def with_borders(filters: tuple[Filter, ...]) -> tuple[Filter, ...]:
+    """Return them, and those low passes that average borders along themselves, after ``LINEAR``."""
+    return (*filters[: len(LINEAR)], *AT_BORDERS, *filters[len(LINEAR) :])
 
 
 def _directions(bench: Bench, colour: NoiseColour | None) -> Floats:

@@ -150,7 +150,8 @@ def denoise(
     The level of the noise is measured along the normals (``noise_level``), and once more, if the
     shape is smooth, by what low passes of many strengths remove alike. Then 95 filters are
     tried: low passes, of which some look less across ridges and creases, bilateral and guided
-    filters of the normals, and normals of small total variation, of many strengths; and mixed
+    filters of the normals, and normals of small total variation, of many strengths; 36 more where
+    there are borders, low passes that average borders along themselves; and they are mixed
     with those weights that make Stein's unbiased estimate of the error least. The result is
     filtered once more, by normals, if that lowers the estimate. Last, where there are vertices
     enough to tell, the result is corrected: some of what was removed comes back, and some of what
@@ -208,9 +209,11 @@ def denoise(
 
     Components of at least 1000 vertices, the eight largest, have a noise level and mixtures of
     their own; the others are denoised as one, but for those of less than 40, which stay as they are
-    unless ``noise`` is given: no estimate can tell the shape of a cube from noise. Borders are
-    nothing special: displacements along the normals keep them in place. Where several faces meet at
-    an edge, all are neighbours.
+    unless ``noise`` is given: no estimate can tell the shape of a cube from noise.
+
+    Borders keep their place, since displacements are along the normals; means over neighbours that
+    are all on one side would bend the surface there, so some low passes average a border along
+    itself. Where several faces meet at an edge, all are neighbours.
 
     References: Stein 1981; Luisier, Blu and Unser 2007; Zheng et al. 2011; Zhang et al. 2015.
 

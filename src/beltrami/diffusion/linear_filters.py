@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
 from numpy.polynomial import Chebyshev
+from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats
 from beltrami.diffusion.smoothing import shares_of
 from beltrami.diffusion.windowed_sinc import filter_rows
 from beltrami.mesh.edge_matrix import symmetric_matrix
 from beltrami.mesh.mesh import Mesh
+from beltrami.operators.areas import diagonal_matrix
 from beltrami.solvers.locality import LocalRows, local_rows
 
 _TAIL = 1e-3  # of the gain, that the cut series may leave out
@@ -22,6 +24,7 @@ _DEGREE = 500  # at most
 _CUTS = np.geomspace(2, 0.004, 16)
 _CUTS_IN_PARTS = np.geomspace(2, 0.01, 8)
 _CONTRASTS = (0.15, 0.3, 0.5)
+_CUTS_AT_BORDERS = np.geomspace(0.8, 0.006, 12)
 _SHORTEST = 1e-3  # mean lengths: edges below it weigh no more
 _LEAST = 1e-12  # of the weight of an edge, that a crease leaves
 
@@ -34,11 +37,16 @@ class Linear:
     1/length, p = 4. With a ``contrast`` s these are times exp(-|n_i - n_j|²/2s²), p = 6, n the
     normals of the evened mesh: what is across a crease has no say, and along a ridge there is more
     smoothing than over it. So sharp a low pass spares what is below the cut; mixtures make others.
+
+    All neighbours of a vertex on the border are on one side. With a share δ of averaging ``along``
+    the border, W̃ is (1 - δ) Id + δ C there, C the mean over the neighbours on the border: what the
+    mean over all becomes, if those inside have mirror images 2x - x_j behind the border.
     """
 
     cut: float
     by_length: bool = False
     contrast: float = math.inf
+    along: float = 0.0
 
     def gain(self, k: Floats) -> Floats:
         """Return the gain at the frequencies k."""
@@ -50,17 +58,29 @@ class Linear:
         """Whether the normals matter."""
         return self.contrast < math.inf
 
+    @property
+    def kind(self) -> Linear:
+        """That of its kind with the cut 1: those have W̃ in common."""
+        return replace(self, cut=1.0)
+
     def __str__(self) -> str:
         if self.in_parts:
             weights = f", weights by length and by normals, contrast {self.contrast:g}"
         else:
             weights = ", weights by length" if self.by_length else ""
+        if self.along:
+            weights += f", {self.along:g} along borders"
         return f"linear, frequencies below {self.cut:.2g}{weights}"
 
 
 LINEAR = tuple(Linear(float(cut), by_length) for by_length in (False, True) for cut in _CUTS)
 IN_PARTS = tuple(
     Linear(float(cut), True, contrast) for contrast in _CONTRASTS for cut in _CUTS_IN_PARTS
+)
+AT_BORDERS = tuple(
+    Linear(float(cut), by_length, along=along)
+    for by_length, along in ((False, 0.5), (False, 1.0), (True, 0.7))
+    for cut in _CUTS_AT_BORDERS
 )
 
 
@@ -97,6 +117,27 @@ def rows_by_normals(mesh: Mesh, contrast: float) -> LocalRows:
     normals, (i, j) = mesh.vertex_normals, mesh.edges.T
     apart = ((normals[i] - normals[j]) ** 2).sum(axis=1)
     return _rows(mesh, _by_length(mesh) * np.maximum(np.exp(-0.5 * apart / contrast**2), _LEAST))
+
+
+def rows_along_borders(mesh: Mesh, along: float, *, by_length: bool) -> LocalRows:
+    """W̃ with borders averaged along themselves: see ``Linear``.
+
+    Its spectrum is real and in [-1, 1], as that without borders: borders look at nothing else.
+    """
+    weights = _by_length(mesh) if by_length else np.ones(len(mesh.edges))
+    on_border = mesh.topology.on_boundary.astype(np.float64)
+    W, C = (
+        _means(symmetric_matrix(mesh.edges, w, mesh.n_vertices))
+        for w in (weights, weights * (mesh.topology.edge_face_count == 1))
+    )
+    inside = diagonal_matrix(1 - on_border) @ W + diagonal_matrix((1 - along) * on_border)
+    rows = csr_array(inside + diagonal_matrix(along * on_border) @ C)
+    return local_rows(rows.indptr, rows.indices, rows.data, np.diff(W.indptr) == 0)
+
+
+def _means(W: csr_array) -> csr_array:
+    total = np.asarray(W.sum(axis=1))
+    return csr_array(diagonal_matrix(1 / np.where(total > 0, total, 1.0)) @ W)
 
 
 def _by_length(mesh: Mesh) -> Floats:
