@@ -189,7 +189,7 @@ class TestBest:
 
     def test_few_vertices_and_little_that_is_left_are_not_corrected(self):
         mesh, x, changed, sigma = trial(ROUGH, 0.3)
-        bound = 26 * sigma**2 / (0.02 * mesh.n_vertices)
+        bound = 26 * sigma**2 / (0.03 * mesh.n_vertices)
         found = best_corrections(mesh, EVERYWHERE, x, changed, sigma, 1.01 * bound)
         assert found.size > 0
         assert best_corrections(mesh, EVERYWHERE, x, changed, sigma, 0.99 * bound) is NONE

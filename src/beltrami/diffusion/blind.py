@@ -19,6 +19,7 @@ from beltrami.diffusion.choice import (
     with_borders,
 )
 from beltrami.diffusion.colour import NoiseColour, noise_colour, with_colour
+from beltrami.diffusion.level import level_beside
 from beltrami.diffusion.linear_filters import LINEAR, Linear, equal_rows
 from beltrami.diffusion.noise import STRONG, NoiseLevel, noise_level
 from beltrami.diffusion.patches import Sample, sample_of, sizes_of_components
@@ -48,6 +49,7 @@ def blind_choice(
         bench, looks = Bench.of(mesh, EVENING_IF_STRONG), _LOOKS_IF_STRONG
         found = noise_level(mesh.topology.adjacency, mesh.vertices, edge, bench.normals)
     sample = sample_of(mesh, size)
+    adjacency = sample.mesh.topology.adjacency
     normals = bench.normals[sample.vertices]
     colour = _colour(sample, normals, edge) if largest >= _ENOUGH else None
     if colour is not None:
@@ -67,11 +69,15 @@ def blind_choice(
         low_passes, filters = with_borders(low_passes), with_borders(filters)
     for _ in range(looks):
         low = alike(float(sigma), normals, low_passes, caution=CAUTION_ON_SMOOTH)
-        normals = _normals(sample.mesh, bench.evening, low)
+        once_more = partial(_filtered, evening=bench.evening, choice=low)
+        clean = once_more(sample.mesh)
+        normals = clean.vertex_normals
         if noise is None and colour is None:
-            A = sample.mesh.topology.adjacency
-            again = noise_level(A, sample.mesh.vertices, edge, normals)
-            sigma = again.spread if odd else again.sigma
+            sigma = (
+                noise_level(adjacency, sample.mesh.vertices, None, normals).spread
+                if odd
+                else level_beside(sample.mesh, clean, once_more)
+            )
     return found, alike(float(sigma), normals, filters), bench
 
 
@@ -79,13 +85,13 @@ def _nothing() -> Choice:
     return Choice(0.0, (), np.zeros(0), np.zeros(0), 0.0)
 
 
-def _normals(mesh: Mesh, evening: Linear, choice: Choice) -> Floats:
-    """Return those of the filtered mesh, along which the noise is more truly than along its own.
+def _filtered(mesh: Mesh, evening: Linear, choice: Choice) -> Mesh:
+    """Return the filtered mesh, along whose normals the noise is more truly than along its own.
 
     The estimate of the error needs the directions of the noise. Those of the evened mesh have
     noise of their own, or have lost the ridges, and agree with some filters more than with others.
     """
-    return mesh.with_vertices(apply(mesh, Bench.of(mesh, evening), choice)).vertex_normals
+    return mesh.with_vertices(apply(mesh, Bench.of(mesh, evening), choice))
 
 
 def _colour(sample: Sample, normals: Floats, edge: float) -> NoiseColour | None:

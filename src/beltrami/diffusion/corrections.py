@@ -21,7 +21,7 @@ _BENT, _MORE_BENT = 0.1, 0.1
 _MOST = 3.0  # a place is not more unusual than that
 _CHANCE = 4.0  # squares of directions below so many times those of chance count for nothing
 _SURE = 4.0  # standard deviations that are no chance
-_COST = 0.02  # of the risk, that fitting so many weights to the noise may cost
+_COST = 0.03  # of the risk, that fitting so many weights to the noise may cost
 _ALIKE = 1e-6  # eigenvalue of the correlations, below which a direction is none
 TERMS = len(_REMOVED) + len(_LEFT) + 3 * (len(_REMOVED_HERE) + len(_LEFT_HERE))
 
@@ -95,7 +95,7 @@ def best_corrections(
     Returns
     -------
     Corrections: ``NONE`` if there are so few vertices that fitting the weights to the noise may
-    cost more than 2 % of the risk, if the gain may be chance, or if they are larger than the error
+    cost more than 3 % of the risk, if the gain may be chance, or if they are larger than the error
     is said to be: nothing can gain that. Cost: O(n), for each change 12
     averages over neighbours.
     """

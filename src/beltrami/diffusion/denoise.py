@@ -147,7 +147,8 @@ def denoise(
 ) -> Denoised:
     r"""Remove the noise of a mesh; how much there is, and how, is found from the mesh.
 
-    The level of the noise is measured along the normals (``noise_level``), and once more, if the
+    The level of the noise is measured along the normals (``noise_level``), again along those of a
+    first result, without what is left of the shape there (``level_beside``), and once more, if the
     shape is smooth, by what low passes of many strengths remove alike. Then 95 filters are
     tried: low passes, of which some look less across ridges and creases, bilateral and guided
     filters of the normals, and normals of small total variation, of many strengths; 36 more where
@@ -198,14 +199,14 @@ def denoise(
     normals that have noise of their own, or that have lost the ridges, the estimate would favour
     the filters which agree with them. Where the noise is very strong, this is done twice.
 
-    The mixtures are chosen as if σ were 8 % larger: to take some shape for noise costs little, but
+    The mixtures are chosen as if σ were 5 % larger: to take some shape for noise costs little, but
     what is left of the noise spoils the normals; and the chosen mixture fits the noise it was
     chosen on. Where nothing but noise is left to fit, and for the second mixture, it is 15 %. The
     ``predicted_error`` is for σ as it is, and at least σ times the divergence for each vertex, the
     least that a linear filter leaves.
     Filters of normals, the second mixture and the corrections are left out where what they gain may
     be chance; the corrections also where to fit their 26 weights to the noise may cost more than
-    2 % of the error. The ``predicted_error`` does not count what they gain.
+    3 % of the error. The ``predicted_error`` does not count what they gain.
 
     Components of at least 1000 vertices, the eight largest, have a noise level and mixtures of
     their own; the others are denoised as one, but for those of less than 40, which stay as they are

@@ -113,10 +113,15 @@ def rows_by_length(mesh: Mesh) -> LocalRows:
 
 
 def rows_by_normals(mesh: Mesh, contrast: float) -> LocalRows:
-    """W̃ with the weights exp(-|n_i - n_j|²/2s²)/length, s the contrast of the normals."""
+    """W̃ with the weights by length and by normals."""
+    return _rows(mesh, weights_by_normals(mesh, contrast))
+
+
+def weights_by_normals(mesh: Mesh, contrast: float) -> Floats:
+    """Return exp(-|n_i - n_j|²/2s²)/length of each edge, s the contrast of the normals."""
     normals, (i, j) = mesh.vertex_normals, mesh.edges.T
     apart = ((normals[i] - normals[j]) ** 2).sum(axis=1)
-    return _rows(mesh, _by_length(mesh) * np.maximum(np.exp(-0.5 * apart / contrast**2), _LEAST))
+    return _by_length(mesh) * np.maximum(np.exp(-0.5 * apart / contrast**2), _LEAST)
 
 
 def rows_along_borders(mesh: Mesh, along: float, *, by_length: bool) -> LocalRows:

@@ -90,7 +90,7 @@ def noise_level(
         norms = np.sqrt(np.asarray(R.multiply(R).sum(axis=1)))
         norms[~inner] = 1
         standard[order] = rough / norms
-        levels.append(float(np.median(np.abs(standard[order][inner])) / _NORMAL))
+        levels.append(median_level(standard[order][inner]))
         if order == 2:
             white = R @ np.random.default_rng(0).standard_normal(n) / norms
     second = standard[2][inner]
@@ -109,9 +109,14 @@ def noise_level(
     )
 
 
+def median_level(values: Floats) -> float:
+    """Return the standard deviation of Gaussian values: their median absolute deviation from 0."""
+    return float(np.median(np.abs(values)) / _NORMAL)
+
+
 def _correlation(adjacency: csr_array, values: Floats) -> float:
     """Return the mean product of neighbours over the mean square, outliers cut off."""
-    level = float(np.median(np.abs(values))) / _NORMAL
+    level = median_level(values)
     cut = np.clip(values, -_CLIP * level, _CLIP * level)
     square = float(np.mean(cut**2))
     if not square > 0 or not adjacency.nnz:
