@@ -80,9 +80,13 @@ def test_warnings_go_to_the_error_stream(beltrami, noisy, tmp_path):
     rng = np.random.default_rng(2)
     spikes = 1 + 0.2 * (rng.random(mesh.n_vertices) < 0.1) * rng.normal(size=mesh.n_vertices)
     write_mesh(noisy, mesh.with_vertices(mesh.vertices * spikes[:, None]))
+    found = denoise(read_mesh(noisy))
+    assert len(found.spikes)
     done = beltrami("denoise", noisy, "-o", tmp_path / "clean.ply")
     assert done.exit_code == 0
     assert "warning: the rough part has outliers" in done.stderr
+    assert f"warning: {len(found.spikes)} vertices were taken for spikes" in done.stderr
+    assert f"spikes: {len(found.spikes)} vertices" in done.stdout
 
 
 @pytest.mark.parametrize(

@@ -147,7 +147,7 @@ def test_they_are_tried_where_there_are_borders():
     assert set(with_borders(ALL)) == {*ALL, *AT_BORDERS}
     assert len(with_borders(ALL)) == 131
     closed, _ = noisy(shapes.icosphere(3), 0.2)
-    assert blind_choice(closed, None, 10**6, linear=True)[1].filters == LINEAR
+    assert blind_choice(closed, None, 10**6, linear=True).choice.filters == LINEAR
     # patches have borders that the mesh has not
     assert blind_choice(closed, None, 600, linear=True)[1].filters == LINEAR
     opened, _ = noisy(Mesh(closed.vertices, closed.faces[20:]), 0.2)

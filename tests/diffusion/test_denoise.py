@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from beltrami.diffusion.candidates import EVENING, Bench, OfNormals, along_normals, filtered
-from beltrami.diffusion.choice import LOW_PASSES, apply, choose
+from beltrami.diffusion.choice import apply, choose
 from beltrami.diffusion.denoise import denoise
 from beltrami.diffusion.level import level_beside
 from beltrami.diffusion.linear_filters import (
@@ -78,6 +78,17 @@ def test_the_level_of_white_noise(truth, level):
     assert found.sigma == pytest.approx(sigma, rel=0.25)
     assert found.relative == pytest.approx(found.sigma / mesh.edge_lengths.mean())
     assert not found.warnings
+
+
+def spiked(truth, white):
+    """A tenth of the vertices off by a normal variable of one mean edge; also white noise."""
+    random = np.random.default_rng(5)
+    n = truth.n_vertices
+    hit = random.random(n) < 0.1
+    noise = truth.edge_lengths.mean() * (
+        hit * random.normal(0, 1, n) + white * random.normal(0, 1, n)
+    )
+    return truth.with_vertices(truth.vertices + noise[:, None] * truth.vertex_normals), hit
 
 
 def copies(one, count):
@@ -377,21 +388,73 @@ def test_ridges_are_kept_by_low_passes_that_look_at_normals():
 
 
 class TestNoiseOfOtherKinds:
-    def test_spikes_are_said_and_no_worse_than_the_best_linear_filter(self):
-        rng = np.random.default_rng(5)
-        sigma = BLOB.edge_lengths.mean()
-        noise = (rng.random(BLOB.n_vertices) < 0.1) * rng.normal(0, sigma, BLOB.n_vertices)
-        mesh = BLOB.with_vertices(BLOB.vertices + noise[:, None] * BLOB.vertex_normals)
+    @pytest.mark.parametrize("white", [0.0, 0.15])
+    def test_spikes_are_missing_data(self, white):
+        """They leave half of what the best linear filter leaves, and less."""
+        mesh, hit = spiked(BLOB, white)
         found = denoise(mesh)
         assert any("outliers" in text for text in found.warnings)
-        clean, _ = first_result(mesh, found.noise.spread, LOW_PASSES, known=True)
+        assert any(text.startswith(f"{len(found.spikes)} vertices were") for text in found.warnings)
+        assert hit[found.spikes].mean() > 0.85
+        bench = Bench.of(mesh)
+        best = min(rms(mesh.with_vertices(x), BLOB) for x in filtered(mesh, bench, LINEAR))
+        assert rms(found.mesh, BLOB) < (0.4 if white == 0 else 0.75) * best
+        assert found.predicted_error == pytest.approx(rms(found.mesh, BLOB), rel=0.6)
+        if white:
+            sigma = white * BLOB.edge_lengths.mean()
+            assert found.sigma == pytest.approx(sigma, rel=0.2)
+
+    def test_spikes_come_down_in_their_place_and_not_beside(self):
+        """Along normals with noise they are off by a fifth of their height."""
+        truth = shapes.icosphere(4)
+        mesh, _ = spiked(truth, 0.15)
+        found = denoise(mesh)
+        x, n = found.mesh.vertices, truth.vertices
+        beside = np.linalg.norm(x - np.einsum("ij,ij->i", x, n)[:, None] * n, axis=1)
+        assert np.sqrt((beside[found.spikes] ** 2).mean()) < 0.06 * truth.edge_lengths.mean()
+
+    def test_spikes_that_cannot_be_told_are_filtered_safely(self):
+        """In ``"linear"``, or if a level is told, none are looked for."""
+        mesh, _ = spiked(BLOB, 0.0)
+        found = denoise(mesh, "linear")
+        assert not len(found.spikes)
+        assert any("outliers" in text for text in found.warnings)
+        clean, _ = first_result(mesh, found.noise.spread, LINEAR, known=True)
         A = mesh.topology.adjacency
         assert found.sigma == noise_level(A, mesh.vertices, None, clean.vertex_normals).spread
         bench = Bench.of(mesh)
         best = min(rms(mesh.with_vertices(x), BLOB) for x in filtered(mesh, bench, LINEAR))
         assert rms(found.mesh, BLOB) < 1.1 * best
         # with the level of the median it would smooth far too little
-        assert rms(denoise(mesh, "linear", noise=found.noise.sigma).mesh, BLOB) > 1.15 * best
+        told = denoise(mesh, "linear", noise=found.noise.sigma)
+        assert rms(told.mesh, BLOB) > 1.15 * best
+        assert not len(denoise(mesh, noise=found.sigma).spikes)
+
+    def test_spikes_have_the_numbers_of_the_whole_mesh(self):
+        truth = shapes.icosphere(4)
+        n = truth.n_vertices
+        white, (rough, hit) = noisy(truth, 0.1)[0], spiked(truth, 0.0)
+        found = denoise(
+            Mesh(
+                np.concatenate([white.vertices, rough.vertices + 9]),
+                np.concatenate([truth.faces, truth.faces + n]),
+            )
+        )
+        assert [len(part.spikes) > 0 for part in found.parts] == [False, True]
+        assert np.array_equal(found.spikes, found.parts[1].spikes)
+        assert hit[found.spikes - n].all()
+        assert len(found.spikes) > 0.9 * hit.sum()
+        part = Mesh(found.mesh.vertices[n:] - 9, truth.faces)
+        assert rms(part, truth) < 0.02 * truth.edge_lengths.mean()
+
+    @pytest.mark.parametrize("truth", [CUBE, shapes.cube(24), BLOB], ids=["cube", "finer", "blob"])
+    def test_where_there_are_none_nothing_changes(self, truth, monkeypatch):
+        for mesh in (truth, noisy(truth, 0.1)[0]):
+            found = denoise(mesh)
+            assert not len(found.spikes)
+            assert not any("taken for spikes" in text for text in found.warnings)
+            monkeypatch.setattr("beltrami.diffusion.blind.find_spikes", lambda mesh: None)
+            assert np.array_equal(found.mesh.vertices, denoise(mesh).mesh.vertices)
 
     def test_strong_noise_is_said(self):
         mesh, _ = noisy(BLOB, 0.7)

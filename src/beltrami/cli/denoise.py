@@ -74,6 +74,8 @@ def _report(output: Path, before: Mesh, found: Denoised) -> None:
         if len(found.parts) > 1:
             typer.echo(f"part {i}, {len(part.vertices)} vertices:")
         typer.echo(f"noise: {part.sigma:.4g} along the normals, {part.sigma / edge:.3f} mean edges")
+        if len(part.spikes):
+            typer.echo(f"spikes: {len(part.spikes)} vertices, put where their neighbours say")
         for name, mixture in (("filters", part.mixture), ("then", part.second)):
             if mixture:
                 shares = [f"{100 * weight:.0f} % {text}" for text, weight in mixture]

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Booleans, Floats, Integers
 from beltrami.diffusion.candidates import EVENING_IF_STRONG, Bench
 from beltrami.diffusion.choice import (
     ALL,
@@ -21,8 +21,9 @@ from beltrami.diffusion.choice import (
 from beltrami.diffusion.colour import NoiseColour, noise_colour, with_colour
 from beltrami.diffusion.level import level_beside
 from beltrami.diffusion.linear_filters import LINEAR, Linear, equal_rows
-from beltrami.diffusion.noise import STRONG, NoiseLevel, noise_level
+from beltrami.diffusion.noise import SPIKED, STRONG, NoiseLevel, noise_level
 from beltrami.diffusion.patches import Sample, sample_of, sizes_of_components
+from beltrami.diffusion.spikes import Spikes, find_spikes
 from beltrami.mesh.mesh import Mesh
 
 _ENOUGH = 1_500  # vertices, from which noise may be told from creases that are everywhere
@@ -33,25 +34,108 @@ _TOO_FEW = (
 )
 _SMALL = 200  # vertices below which only linear filters are trusted
 _LOOKS, _LOOKS_IF_STRONG = 1, 2  # at the normals, before the choice
+_TIMES = 2  # that the level is measured without spikes
+_SEED = 12
 
 
-def blind_choice(
-    mesh: Mesh, noise: float | None, size: int, *, linear: bool = False
-) -> tuple[NoiseLevel, Choice, Bench]:
-    """Measure the noise, and choose on a sample of about ``size`` faces; safely, if it is odd."""
-    edge = float(mesh.edge_lengths.mean())
-    bench, looks = Bench.of(mesh), _LOOKS
-    found = noise_level(mesh.topology.adjacency, mesh.vertices, edge, bench.normals)
+@dataclass(frozen=True, eq=False)
+class Blind:
+    """What was found and chosen.
+
+    Attributes
+    ----------
+    noise
+        Of the mesh as it is.
+    choice, bench, mesh
+        What is to be applied, and to which mesh: the same without the spikes.
+    spikes
+        The vertices that were taken for such.
+    risk
+        Mean square error that is expected.
+    """
+
+    noise: NoiseLevel
+    choice: Choice
+    bench: Bench
+    mesh: Mesh
+    spikes: Integers
+    risk: float
+
+
+def blind_choice(mesh: Mesh, noise: float | None, size: int, *, linear: bool = False) -> Blind:
+    """Measure the noise, and choose on a sample of about ``size`` faces; safely, if it is odd.
+
+    Spikes are put where their neighbours say before, and do not count.
+    """
+    bench = Bench.of(mesh)
+    found = _level(mesh, bench.normals)
     largest = int(sizes_of_components(mesh)[1].max())
+    none = np.zeros(0, np.int64)
     if noise is None and largest < FEW:
-        return replace(found, warnings=(_TOO_FEW,)), _nothing(), bench
+        told = replace(found, warnings=(_TOO_FEW,))
+        return Blind(told, _nothing(), bench, mesh, none, 0.0)
+    if noise is None and not linear and found.kurtosis > SPIKED and largest >= _SMALL:
+        spikes = find_spikes(mesh)
+        if spikes is not None:
+            return _without(spikes, found, size, largest)
+    told, choice, bench = _chosen(mesh, bench, found, noise, size, largest, linear=linear)
+    return Blind(told, choice, bench, mesh, none, choice.risk)
+
+
+def _without(spikes: Spikes, found: NoiseLevel, size: int, largest: int) -> Blind:
+    """Choose for the mesh without them; what is left of its kurtosis is small beside them."""
+    bench = Bench.of(spikes.mesh)
+    rest = _level(spikes.mesh, bench.normals, spikes.found)
+    told, choice, bench = _chosen(
+        spikes.mesh, bench, rest, None, size, largest, linear=False, spikes=spikes.found
+    )
+    count, share = int(spikes.found.sum()), float(spikes.found.mean())
+    text = f"{count} vertices were taken for spikes, and put where their neighbours say"
+    others = tuple(one for one in told.warnings if "kurtosis" not in one)
+    noise = replace(found, warnings=(*found.warnings, text, *others))
+    of_filling = max(spikes.error**2 - choice.sigma**2, choice.risk)
+    risk = (1 - share) * choice.risk + share * of_filling
+    return Blind(noise, choice, bench, spikes.mesh, np.flatnonzero(spikes.found), risk)
+
+
+def _level(mesh: Mesh, normals: Floats, spikes: Booleans | None = None) -> NoiseLevel:
+    """Measure it; where there were spikes, by the root mean square: some small ones are left.
+
+    What was put in their place has no noise of its own, so it gets some as strong as the others'.
+    """
+    A, x, edge = mesh.topology.adjacency, mesh.vertices, float(mesh.edge_lengths.mean())
+    found = noise_level(A, x, edge, normals)
+    if spikes is None:
+        return found
+    white = np.random.default_rng(_SEED).standard_normal(len(x)) * spikes
+    for _ in range(_TIMES):
+        found = noise_level(A, x + found.spread * white[:, None] * normals, edge, normals)
+    return replace(found, sigma=found.spread)
+
+
+def _chosen(
+    mesh: Mesh,
+    bench: Bench,
+    found: NoiseLevel,
+    noise: float | None,
+    size: int,
+    largest: int,
+    *,
+    linear: bool,
+    spikes: Booleans | None = None,
+) -> tuple[NoiseLevel, Choice, Bench]:
+    edge, looks = float(mesh.edge_lengths.mean()), _LOOKS
     if found.relative > STRONG:
         bench, looks = Bench.of(mesh, EVENING_IF_STRONG), _LOOKS_IF_STRONG
-        found = noise_level(mesh.topology.adjacency, mesh.vertices, edge, bench.normals)
+        found = _level(mesh, bench.normals, spikes)
     sample = sample_of(mesh, size)
-    adjacency = sample.mesh.topology.adjacency
+    there = None if spikes is None else spikes[sample.vertices]
+    if there is not None:
+        sample = replace(sample, core=sample.core & ~there)
     normals = bench.normals[sample.vertices]
-    colour = _colour(sample, normals, edge) if largest >= _ENOUGH else None
+    colour = None
+    if largest >= _ENOUGH and spikes is None:
+        colour = _colour(sample, normals, edge)
     if colour is not None:
         found = with_colour(found, colour, equal_rows(sample.mesh))
     odd = bool(found.warnings)
@@ -74,9 +158,9 @@ def blind_choice(
         normals = clean.vertex_normals
         if noise is None and colour is None:
             sigma = (
-                noise_level(adjacency, sample.mesh.vertices, None, normals).spread
-                if odd
-                else level_beside(sample.mesh, clean, once_more)
+                level_beside(sample.mesh, clean, once_more)
+                if there is None and not odd
+                else _level(sample.mesh, normals, there).spread
             )
     return found, alike(float(sigma), normals, filters), bench
 

@@ -7,14 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from beltrami._arrays import Integers
+from beltrami._arrays import Floats, Integers
 from beltrami._carded import Carded
 from beltrami._kinds import checked
 from beltrami._progress import Progress
-from beltrami.diffusion.blind import FEW, blind_choice
+from beltrami.diffusion.blind import FEW, Blind, blind_choice
 from beltrami.diffusion.candidates import SECOND
-from beltrami.diffusion.choice import ALONG_NORMALS, AS_IT_IS, Choice, apply, named
+from beltrami.diffusion.choice import ALONG_NORMALS, AS_IT_IS, apply, named
 from beltrami.diffusion.fairing import faired
+from beltrami.diffusion.filling import brought_down
 from beltrami.diffusion.noise import NoiseLevel
 from beltrami.diffusion.patches import components_of, part_of
 from beltrami.diffusion.vertex_update import require_agreeing_normals
@@ -52,6 +53,8 @@ class DenoisedPart:
     predicted_error
         Root mean square distance of the vertices from the truth that is expected (Stein), in the
         unit of length.
+    spikes
+        The numbers of those of its vertices that were taken for spikes.
     """
 
     vertices: Integers
@@ -61,6 +64,7 @@ class DenoisedPart:
     second: tuple[tuple[str, float], ...]
     corrected: float
     predicted_error: float
+    spikes: Integers
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -79,10 +83,13 @@ class Denoised(Carded):
     predicted_error
         Root mean square distance of the vertices from the truth that is expected (Stein), in the
         unit of length.
+    spikes
+        (k,) the vertices that were taken for spikes.
     volume_change
         Relative; NaN if the mesh has a boundary, or no volume.
     warnings
-        Why the result may be worse than predicted; only low passes were used there.
+        Why the result may be worse than predicted, and how many vertices were taken for spikes.
+        Where only spikes were odd, all filters were used, else only low passes.
     """
 
     mesh: Mesh
@@ -120,6 +127,11 @@ class Denoised(Carded):
         sizes = [len(part.vertices) for part in self.parts]
         squares = [part.predicted_error**2 for part in self.parts]
         return math.sqrt(float(np.average(squares, weights=sizes)))
+
+    @property
+    def spikes(self) -> Integers:
+        """(k,) the vertices of all parts that were taken for spikes, in order."""
+        return np.sort(np.concatenate([part.spikes for part in self.parts]))
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -178,7 +190,9 @@ def denoise(
     Denoised: the mesh first. If the noise does not look white and Gaussian, or is very strong, it
     says so in ``warnings``, and only low passes are used, whose estimate of the error needs no
     Gaussian. Then the level is the root mean square, outliers included; of noise that is not white
-    (``noise_colour``) it is that of all frequencies, and the estimate has its covariance.
+    (``noise_colour``) it is that of all frequencies, and the estimate has its covariance. Spikes,
+    single vertices or pairs that are far off, are told in ``spikes``: they are missing data, and
+    the rest is denoised as if it were all, safely if it is odd still.
 
     Raises
     ------
@@ -208,6 +222,10 @@ def denoise(
     be chance; the corrections also where to fit their 26 weights to the noise may cost more than
     3 % of the error. The ``predicted_error`` does not count what they gain.
 
+    Spikes are looked for where outliers are said, but not with ``noise`` or ``"linear"``, nor
+    below 200 vertices (``beltrami.diffusion.spikes``). Their places are filled, from the vertices
+    around and along the normals of the result; the level is that of the others, root mean square.
+
     Components of at least 1000 vertices, the eight largest, have a noise level and mixtures of
     their own; the others are denoised as one, but for those of less than 40, which stay as they are
     unless ``noise`` is given: no estimate can tell the shape of a cube from noise.
@@ -216,7 +234,8 @@ def denoise(
     are all on one side would bend the surface there, so some low passes average a border along
     itself. Where several faces meet at an edge, all are neighbours.
 
-    References: Stein 1981; Luisier, Blu and Unser 2007; Zheng et al. 2011; Zhang et al. 2015.
+    References: Stein 1981; Luisier, Blu and Unser 2007; Zheng et al. 2011; Zhang et al. 2015; for
+    spikes, Fleishman, Drori and Cohen-Or 2003.
 
     Examples
     --------
@@ -242,16 +261,26 @@ def denoise(
     for i, vertices in enumerate(components):
         part = mesh if len(components) == 1 else part_of(mesh, vertices)
         if part.n_faces:
-            found, choice, bench = blind_choice(part, noise, size, linear=method == "linear")
+            found = blind_choice(part, noise, size, linear=method == "linear")
             if progress is not None:
                 progress(2 * i + 1, 2 * len(components))
-            clean = part.with_vertices(apply(part, bench, choice))
-            moved[vertices] = faired(clean, math.sqrt(choice.risk))
-            parts.append(_told(vertices, found, choice))
+            moved[vertices] = _cleaned(part, found)
+            parts.append(_told(vertices, found))
         if progress is not None:
             progress(2 * i + 2, 2 * len(components))
-    result = mesh.with_vertices(moved) if any(part.sigma for part in parts) else mesh
+    changed = any(part.sigma or len(part.spikes) for part in parts)
+    result = mesh.with_vertices(moved) if changed else mesh
     return Denoised(result, tuple(parts), _volume_change(mesh, result))
+
+
+def _cleaned(part: Mesh, found: Blind) -> Floats:
+    """Apply what was chosen; spikes come down along the normals of the clean mesh, not beside."""
+    x = apply(found.mesh, found.bench, found.choice)
+    if len(found.spikes):
+        spikes = np.zeros(len(x), np.bool_)
+        spikes[found.spikes] = True
+        x = np.where(spikes[:, None], brought_down(part, spikes, x, x), x)
+    return faired(part.with_vertices(x), math.sqrt(found.choice.risk))
 
 
 def _volume_change(before: Mesh, after: Mesh) -> float:
@@ -261,13 +290,15 @@ def _volume_change(before: Mesh, after: Mesh) -> float:
     return after.volume / before.volume - 1
 
 
-def _told(vertices: Integers, found: NoiseLevel, choice: Choice) -> DenoisedPart:
+def _told(vertices: Integers, found: Blind) -> DenoisedPart:
+    choice = found.choice
     return DenoisedPart(
         vertices,
-        found,
+        found.noise,
         choice.sigma,
         named(choice.filters, choice.first),
         named((AS_IT_IS, ALONG_NORMALS, *SECOND), choice.second),
         choice.corrections.size,
-        math.sqrt(choice.risk),
+        math.sqrt(found.risk),
+        vertices[found.spikes],
     )

@@ -12,7 +12,7 @@ from beltrami.operators.areas import diagonal_matrix
 
 ORDERS = (1, 2, 3)
 _NORMAL = 0.6744897501960817  # median of the absolute values of a standard normal variable
-_SPIKES = 4.5  # kurtosis beyond which noise is not taken for Gaussian, whose kurtosis is 3
+SPIKED = 4.5  # kurtosis beyond which noise is not taken for Gaussian, whose kurtosis is 3
 _COLOURED = -0.025  # correlation of neighbours, less that of white noise, of smoothed noise
 _CLIP = 3.0  # standard deviations beyond which values do not count for the correlation
 STRONG = 0.42  # mean edge lengths, of the noisy mesh, beyond which normals tell little
@@ -133,7 +133,7 @@ def averaging_matrix(adjacency: csr_array) -> csr_array:
 
 def _warnings(kurtosis: float, excess: float, edges: int, relative: float) -> list[str]:
     found = []
-    if kurtosis > _SPIKES:
+    if kurtosis > SPIKED:
         found.append(
             f"the rough part has outliers (its kurtosis is {kurtosis:.1f}, that of Gaussian noise "
             "is 3): the noise has spikes, or there is little noise beside sharp features"
