@@ -150,9 +150,9 @@ def denoise(
     The level of the noise is measured along the normals (``noise_level``), and once more, if the
     shape is smooth, by what low passes of many strengths remove alike. Then 95 filters are
     tried: low passes, of which some look less across ridges and creases, bilateral and guided
-    filters of the normals, and normals of small total variation, of many strengths; 36 more where
-    there are borders, low passes that average borders along themselves; and they are mixed
-    with those weights that make Stein's unbiased estimate of the error least. The result is
+    filters of the normals, and normals of small total variation, of many strengths; where a
+    hundredth of the vertices is on borders, 36 low passes more that average borders along
+    themselves. They are mixed with those weights that make Stein's unbiased estimate of the error least. The result is
     filtered once more, by normals, if that lowers the estimate. Last, where there are vertices
     enough to tell, the result is corrected: some of what was removed comes back, and some of what
     is left goes, by weights that depend on the curvature and on the length of the edges
