@@ -33,6 +33,7 @@ _TOO_FEW = (
     "from their shape (say with noise= how much there is)"
 )
 _SMALL = 200  # vertices below which only linear filters are trusted
+_BORDERS = 0.01  # of the vertices, below which they matter less than what more choice costs
 _LOOKS, _LOOKS_IF_STRONG = 1, 2  # at the normals, before the choice
 _TIMES = 2  # that the level is measured without spikes
 _SEED = 12
@@ -149,7 +150,7 @@ def _chosen(
         LINEAR if few else LOW_PASSES,
         LINEAR if few else LOW_PASSES if odd else ALL,
     )
-    if mesh.topology.on_boundary[sample.vertices[sample.core]].any():
+    if mesh.topology.on_boundary[sample.vertices[sample.core]].mean() > _BORDERS:
         low_passes, filters = with_borders(low_passes), with_borders(filters)
     for _ in range(looks):
         low = alike(float(sigma), normals, low_passes, caution=CAUTION_ON_SMOOTH)

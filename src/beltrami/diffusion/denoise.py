@@ -163,12 +163,13 @@ def denoise(
     first result, without what is left of the shape there (``level_beside``), and once more, if the
     shape is smooth, by what low passes of many strengths remove alike. Then 95 filters are
     tried: low passes, of which some look less across ridges and creases, bilateral and guided
-    filters of the normals, and normals of small total variation, of many strengths; 36 more where
-    there are borders, low passes that average borders along themselves; and they are mixed
-    with those weights that make Stein's unbiased estimate of the error least. The result is
-    filtered once more, by normals, if that lowers the estimate. Last, where there are vertices
-    enough to tell, the result is corrected: some of what was removed comes back, and some of what
-    is left goes, by weights that depend on the curvature and on the length of the edges
+    filters of the normals, and normals of small total variation, of many strengths; where a
+    hundredth of the vertices is on borders, 36 low passes more that average borders along
+    themselves. They are mixed with those weights that make Stein's unbiased estimate of the error
+    least. The result is filtered once more, by normals, if that lowers the estimate. Last, where
+    there are vertices enough to tell, the result is corrected: some of what was removed comes back,
+    and some of what is left goes, by weights that depend on the curvature and on the length of the
+    edges
     (``beltrami.diffusion.corrections``). The displacements of low passes
     are along the normals, so that little shrinks or slides; the estimate counts what the other
     filters move sideways as error. Last, faces that are small beside the error that is left are
