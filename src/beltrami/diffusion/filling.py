@@ -20,6 +20,7 @@ _MANY = 64  # neighbours, beyond which a mean tells little, and all of them woul
 _RIDGE = 1e-9  # for components of which nothing is known
 _CONTRAST, _ROUNDS, _TIMES = 0.3, 6, 3  # of the filter of normals
 _STRAIGHT = 0.8  # cosine of the angle between a displacement and the normal
+_SMALL = 0.7  # mean edges, that sliding may be
 _TRIED = 0.1  # of the known vertices
 _SEED = 31
 
@@ -52,13 +53,14 @@ def filled(mesh: Mesh, unknown: Booleans, way: str = "plain") -> Floats:
 def brought_down(mesh: Mesh, unknown: Booleans, moved: Floats, surface: Floats) -> Floats:
     """Keep of the displacements what is along the normals of the surface; all, where it turned.
 
-    A vertex beside its place may fold the faces around it: their normal is far from the
+    A vertex far beside its place may fold the faces around it: their normal is far from the
     displacement then. Known vertices stay where the mesh has them.
     """
     normals = mesh.with_vertices(surface).vertex_normals
     away = moved - mesh.vertices
     way = np.einsum("ij,ij->i", away, normals)
-    straight = np.abs(way) > _STRAIGHT * np.linalg.norm(away, axis=1)
+    far = np.linalg.norm(away, axis=1)
+    straight = (np.abs(way) > _STRAIGHT * far) | (far < _SMALL * float(mesh.edge_lengths.mean()))
     x = np.where(straight[:, None], mesh.vertices + way[:, None] * normals, moved)
     return np.where(unknown[:, None], x, mesh.vertices)
 
