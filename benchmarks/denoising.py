@@ -1,6 +1,7 @@
 """Denoising without a parameter, against peers at the best parameter that knowing the truth finds.
 
 python -m benchmarks.denoising [mesh ...] [--seeds 3] [--folder kept]  BENCHMARKS-DENOISING.md
+python -m benchmarks.denoising --further data/meshes                    CGAL's meshes too
 python -m benchmarks.denoising --faces 1000000                          one large mesh, printed
 
 Noise is white, along the normals, of 0.1, 0.2 and 0.3 mean edge lengths; "Fandisk0.3" is a noisy
@@ -31,6 +32,7 @@ import numpy as np
 from benchmarks.cases import FOLDER_VARIABLE, plain, subdivided
 from benchmarks.denoising_report import Case, OddCase, written
 from benchmarks.noisy_meshes import (
+    FURTHER,
     HELD_OUT,
     ODD,
     PAIR,
@@ -126,6 +128,7 @@ def measured(
     levels: Sequence[float] = LEVELS,
     *,
     more: bool = True,
+    odd_kinds: Sequence[str] = tuple(ODD),
 ) -> tuple[list[Case], list[OddCase]]:
     """Measure one mesh at some levels, and, if it is small, with odd noise.
 
@@ -161,7 +164,7 @@ def measured(
             runs.append(tuple(facts))
         if runs:
             cases.append(Case(name, level, n, tuple(runs)))
-    for kind in ODD if n <= _SMALL else ():
+    for kind in odd_kinds if n <= _SMALL else ():
         if not wanted(f"{name}-{kind}"):
             continue
         mesh = odd_noise(truth, kind, 0)
@@ -195,6 +198,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--seeds", type=int, default=3)
     parser.add_argument("--levels", type=float, nargs="+", default=LEVELS)
     parser.add_argument("--folder", type=Path, help="where what was measured is kept")
+    parser.add_argument("--further", type=Path, help="where the meshes of CGAL's data are")
     parser.add_argument("--no-more", action="store_true", help="tell what the folder has")
     parser.add_argument("--output", type=Path, default=REPORT)
     parser.add_argument("--faces", type=int, help="time a mesh of so many, and nothing else")
@@ -220,7 +224,23 @@ def main(arguments: Sequence[str] | None = None) -> None:
             missing.append(name)
         cases += found[0]
         odd += found[1]
-    asked.output.write_text(written(cases, odd, missing))
+    further: list[Case] = []
+    if asked.further:
+        for name in (f"{one}.off" for one in FURTHER):
+            if not is_there(name, asked.further):
+                missing.append(name)
+                continue
+            print(name, flush=True)
+            further += measured(
+                name,
+                asked.further,
+                asked.folder,
+                1,
+                asked.levels,
+                more=not asked.no_more,
+                odd_kinds=(),
+            )[0]
+    asked.output.write_text(written(cases, odd, missing, further))
     print(f"wrote {asked.output}")
 
 

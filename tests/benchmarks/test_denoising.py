@@ -6,7 +6,16 @@ import numpy as np
 import pytest
 from benchmarks.denoising import best_filter, kept, main, measured
 from benchmarks.denoising_report import Case, OddCase, goals, interval, told, written
-from benchmarks.noisy_meshes import CREASED, HELD_OUT, ODD, TUNED, errors, noisy, odd_noise
+from benchmarks.noisy_meshes import (
+    CREASED,
+    FURTHER,
+    HELD_OUT,
+    ODD,
+    TUNED,
+    errors,
+    noisy,
+    odd_noise,
+)
 
 import beltrami as bt
 from benchmarks import denoising
@@ -70,6 +79,24 @@ def test_what_is_kept_is_not_measured_again(tmp_path, monkeypatch):
     assert "| ellipsoid | strong |" in text
     assert text.count("| ellipsoid 0.") == 3
     assert text == written(*measured("ellipsoid", tmp_path, tmp_path, 3), ["no-such-mesh"])
+
+
+def test_further_meshes_are_a_section_of_their_own(tmp_path, monkeypatch):
+    monkeypatch.setattr(denoising, "of_peers", lambda truth, mesh: facts((2, 1), (4, 2))[0])
+    denoising.of_peers.__name__ = "of_peers"
+    monkeypatch.setattr(denoising, "of_ours", lambda truth, mesh: facts((2, 1.9), (4, 2))[1])
+    denoising.of_ours.__name__ = "of_ours"
+    bt.write_mesh(tmp_path / f"{FURTHER[-1]}.off", bt.shapes.icosphere(2))
+    target = tmp_path / "report.md"
+    folder = str(tmp_path)
+    main(["no-such-mesh", "--further", folder, "--folder", folder, "--output", str(target)])
+    text = target.read_text()
+    assert text.count(f"| {FURTHER[-1]}.off 0.") == 3
+    assert f"{FURTHER[0]}.off" in text.split("Not measured: ")[1].split("\n")[0]
+    section = text.split("## Further meshes")[1].split("## Noise of other")[0]
+    assert "worst 0.950 (<= 0.80: **missed**)" in section
+    assert "worst 0.500 (<= 1.10: met)" in section
+    assert "Further" not in written([], [], [])
 
 
 def test_errors_and_the_noise_that_makes_them():

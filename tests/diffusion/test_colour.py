@@ -57,6 +57,29 @@ def test_clean_shapes_and_white_noise_have_no_colour(truth):
         assert not said(moved(truth, white(truth, level, seed=1)))
 
 
+@pytest.mark.parametrize("around", [4, 5, 6, 8])
+@pytest.mark.parametrize("level", [0.1, 0.3])
+def test_thin_tubes_are_no_noise(around, level):
+    """What goes round a tube with few vertices is as even as noise, and not Gaussian."""
+    rows = 2400 // around
+    tube = shapes.cylinder(around, rows, caps=True)
+    tube = tube.with_vertices(tube.vertices * [1, 1, 5 * rows / around])
+    mesh = moved(tube, white(tube, level))
+    assert not said(mesh)
+    if (around, level) in {(5, 0.1), (8, 0.3)}:
+        assert rms(denoise(mesh).mesh, tube) < 0.5 * rms(mesh, tube)
+
+
+def test_white_noise_upon_an_even_shape_is_a_floor():
+    """A coarse shape is as strong in the middle, but its noise is as strong in all bands."""
+    coarse = NoiseColour((3.0, 1.8, 1.15, 1.06, 1.0), (1.1,) * 5, 3.0)
+    averaged_once = NoiseColour((3.0, 1.8, 1.1, 0.86, 1.0), (1.1,) * 5, 3.0)
+    averaged_half = NoiseColour((3.0, 1.8, 1.5, 1.25, 1.0), (1.1,) * 5, 3.0)
+    assert not coarse.is_coloured(5.0)
+    assert averaged_once.is_coloured(5.0)
+    assert averaged_half.is_coloured(5.0)
+
+
 @pytest.mark.parametrize("truth", ALL)
 def test_averaged_noise_has_one(truth):
     assert said(moved(truth, averaged(truth, 0.3, own=1 / 7)))

@@ -206,6 +206,14 @@ class TestBest:
             more = 1.5 * sigma  # what is left of the noise would be shape
             assert best_corrections(mesh, EVERYWHERE, x, same, 0.5 * sigma, more**2).size > 0
 
+    def test_more_than_there_is_to_gain_is_none(self):
+        """Where the error is said to be small, corrections that are larger cannot be right."""
+        mesh, x, changed, sigma = trial(ROUGH, 0.1)  # little noise: fitting it costs little
+        size = best_corrections(mesh, EVERYWHERE, x, changed, sigma, 9 * sigma**2).size
+        enough = 1.01 * size**2
+        assert best_corrections(mesh, EVERYWHERE, x, changed, sigma, enough).size == size
+        assert best_corrections(mesh, EVERYWHERE, x, changed, sigma, 0.98 * enough) is NONE
+
     @pytest.mark.parametrize("unit", [2.0**-40, 2.0**40])
     def test_the_unit_does_not_matter(self, unit):
         mesh, x, changed, sigma = trial(ROUGH, 0.3)

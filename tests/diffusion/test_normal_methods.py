@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 import scipy.optimize
 
+from beltrami.diffusion.candidates import Bench, OfVariation, filtered
 from beltrami.diffusion.face_rings import face_rings
 from beltrami.diffusion.normal_filters import filtered_normals
 from beltrami.diffusion.normal_guides import guide_normals
-from beltrami.diffusion.normal_variation import normals_of_small_variation
+from beltrami.diffusion.normal_variation import evened_normals, normals_of_small_variation
 from beltrami.diffusion.smooth_mesh import smooth_mesh
 from beltrami.diffusion.vertex_update import fit_to_normals
 from beltrami.errors import BeltramiError, DimensionError, MeshError, NonFiniteError
@@ -170,6 +171,22 @@ def test_total_variation_is_the_minimum(fidelity):
     ).x.reshape(-1, 3)
     assert energy(best) < 0.98 * energy(start)
     assert np.allclose(found, unit(best), atol=0.01)
+
+
+def test_faces_whose_normals_even_out_to_nothing_keep_theirs():
+    """Round a thin tube the normals point all ways; a filter that gives up would move nothing."""
+    tube = shapes.cylinder(5, 60, caps=True)
+    tube = tube.with_vertices(tube.vertices * [1, 1, 60])
+    noise = np.random.default_rng(0).normal(0, 0.2 * tube.edge_lengths.mean(), tube.n_vertices)
+    mesh = tube.with_vertices(tube.vertices + noise[:, None] * tube.vertex_normals)
+    with pytest.raises(BeltramiError, match="evened out to nothing"):
+        normals_of_small_variation(mesh, 0.7, 100)
+    normals, lost = evened_normals(mesh, 0.7, 100)
+    assert 0 < lost.sum() < mesh.n_faces
+    assert np.array_equal(normals[lost], mesh.face_normals[lost])
+    assert np.allclose(np.linalg.norm(normals, axis=1), 1)
+    moved = filtered(mesh, Bench.of(mesh), [OfVariation(0.7)])[0] - mesh.vertices
+    assert np.sqrt((moved**2).sum(axis=1).mean()) > 0.1 * np.abs(noise).mean()
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -18,9 +18,8 @@ from beltrami.diffusion.linear_filters import (
     rows_by_normals,
 )
 from beltrami.diffusion.normal_filters import filtered_normals
-from beltrami.diffusion.normal_variation import normals_of_small_variation
+from beltrami.diffusion.normal_variation import evened_normals
 from beltrami.diffusion.vertex_update import fit_to_normals
-from beltrami.errors import BeltramiError
 from beltrami.mesh.mesh import Mesh
 from beltrami.solvers.locality import LocalRows
 
@@ -122,7 +121,7 @@ def filtered(
     """Return the positions (n, 3) by each of the filters.
 
     ``start`` are positions to filter the normals of, instead of those of the mesh; displacements
-    are projected as seen from the mesh. A variation that leaves no normals moves nothing.
+    are projected as seen from the mesh.
     """
     from_here = mesh if start is None else mesh.with_vertices(start)
     rounds = _all_rounds(from_here, bench, [f for f in filters if isinstance(f, OfNormals)])
@@ -171,9 +170,7 @@ def _all_rounds(
 
 
 def _of_variation(mesh: Mesh, fidelity: float) -> Floats:
+    """Faces whose normals even out to nothing keep theirs: the probe changes which these are."""
     held = np.zeros(mesh.n_vertices, np.bool_)
-    try:
-        normals = normals_of_small_variation(mesh, fidelity, _VARIATION_ROUNDS)
-    except BeltramiError:  # evened out to nothing
-        return mesh.vertices
+    normals, _ = evened_normals(mesh, fidelity, _VARIATION_ROUNDS)
     return fit_to_normals(mesh.topology, mesh.vertices, normals, held)

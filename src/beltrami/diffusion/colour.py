@@ -17,7 +17,7 @@ from beltrami.solvers.locality import LocalRows
 # gains k^a (2 - k)^b, largest at 2a/(a + b): polynomials of W̃, so that creases stay where they are
 _EXPONENTS = ((3, 8), (4, 7), (4, 4), (5, 3), (6, 0))
 _PEAKS = tuple(2 * a / (a + b) for a, b in _EXPONENTS)
-_LOW, _MIDDLE, _HIGH, _TOP = 0, 1, 2, 4  # of these bands
+_LOW, _MIDDLE, _HIGH, _HIGHER, _TOP = range(5)  # of these bands
 _AREA = 12.0  # time of the heat that takes local means: radius of some 3.5 edges
 _QUIET, _ROUGH = 0.1, 0.9  # shares of the vertices where there is less
 _CLIP = 9.0  # variances beyond which squares do not count
@@ -25,8 +25,9 @@ _HALF_SQUARE = 0.45493642311957283  # median of the square of a standard normal 
 _EXCESSES = {_LOW: 0.55, _MIDDLE: 0.35}  # logarithms: see is_coloured
 _UNEVEN = 1.5  # where there is shape all over
 _DIP = 0.8
-_PEAKED = 5.0  # kurtosis of what is not Gaussian
+_BLUNT, _PEAKED = 2.4, 5.0  # kurtosis of what is not Gaussian
 _FAINT = 0.12  # mean edges, below which it may be the texture of the shape
+_STEP, _FALL, _RISE = 1.2, 1.3, 0.95  # of the highest bands, that a floor of white noise allows
 _FLATTEST, _STEEPEST = 1.0, 6.0  # powers of 1 - k/2
 _SHAPE = 1.5  # power of what is uneven that is shape
 _CHANCE = 0.12  # by which noise alone may be uneven
@@ -48,7 +49,8 @@ class NoiseColour:
         How much stronger the band is where there is much of it than where there is little, over
         what white noise has there: 1 where there is noise alone, more where there is shape.
     kurtosis
-        Of the second band; 3 if the noise is Gaussian, larger if it has spikes.
+        Of the second band; 3 if the noise is Gaussian, larger if it has spikes, and near 1 where a
+        shape repeats: a thin tube.
     """
 
     levels: tuple[float, ...]
@@ -59,10 +61,15 @@ class NoiseColour:
         """Whether the noise is correlated: even, but stronger in the middle than at the top.
 
         What is left of a shape is stronger in the middle too, but not everywhere: the more uneven
-        the band, the more it may have. A shape never makes a band weaker than the next.
+        the band, the more it may have. Where few vertices make a shape, as edge collapses leave
+        them, it is as even as noise; but white noise upon it is a floor, which the highest bands
+        share. A shape never makes a band weaker than the next.
         """
         top, least = self.levels[_TOP], _FAINT * edge_length
-        if self.kurtosis > _PEAKED or not min(self.levels) > 0:
+        if not (_BLUNT < self.kurtosis < _PEAKED and min(self.levels) > 0):
+            return False
+        high, higher = self.levels[_HIGH], self.levels[_HIGHER]
+        if _RISE * top < min(high, higher) and high < min(_STEP * higher, _FALL * top):
             return False
         for band, log in _EXCESSES.items():
             more = max(self.uneven[band] - 1, 0.0)

@@ -95,7 +95,8 @@ def best_corrections(
     Returns
     -------
     Corrections: ``NONE`` if there are so few vertices that fitting the weights to the noise may
-    cost more than 3 % of the risk, or if the gain may be chance. Cost: O(n), for each change 12
+    cost more than 3 % of the risk, if the gain may be chance, or if they are larger than the error
+    is said to be: nothing can gain that. Cost: O(n), for each change 12
     averages over neighbours.
     """
     n = int(core.sum())
@@ -106,8 +107,8 @@ def best_corrections(
     weights = shrunk_weights(gram, agreement, sigma**2 / n)
     size = math.sqrt(max(float(weights @ gram @ weights), 0.0))
     gain = 2 * float(weights @ agreement) - size**2
-    if not gain > _SURE * 2 * sigma * size / math.sqrt(n):
-        return NONE
+    if not gain > _SURE * 2 * sigma * size / math.sqrt(n) or size**2 > risk:
+        return NONE  # chance, or more than there is to gain
     return Corrections(unit, weights, size)
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from beltrami._arrays import Floats
+from beltrami._arrays import Booleans, Floats
 from beltrami._jit import kernel
 from beltrami.errors import BeltramiError
 from beltrami.mesh.mesh import Mesh
@@ -32,6 +32,20 @@ def normals_of_small_variation(mesh: Mesh, fidelity: float, rounds: int = 200) -
     BeltramiError
         If the fidelity is so small that normals which point apart are evened out to nothing.
     """
+    normals, lost = evened_normals(mesh, fidelity, rounds)
+    if lost.any():
+        raise BeltramiError(
+            f"with a fidelity of {fidelity:g} the normals of {lost.sum()} faces are evened out "
+            "to nothing, with those that point the other way: take a larger one"
+        )
+    return normals
+
+
+def evened_normals(mesh: Mesh, fidelity: float, rounds: int) -> tuple[Floats, Booleans]:
+    """Return those of ``normals_of_small_variation``, and (m,) the faces that lost theirs.
+
+    These have the normals of the mesh.
+    """
     twins = mesh.topology.twins
     sides = np.flatnonzero(twins.ravel() > np.arange(twins.size))
     left, right = sides // 3, twins.ravel()[sides] // 3
@@ -40,7 +54,7 @@ def normals_of_small_variation(mesh: Mesh, fidelity: float, rounds: int = 200) -
     lengths = np.linalg.norm(opposite.reshape(-1, corners.shape[2])[sides], axis=1)
     areas = mesh.face_areas
     if not len(sides) or not lengths.any():
-        return np.array(mesh.face_normals)
+        return np.array(mesh.face_normals), np.zeros(mesh.n_faces, np.bool_)
     caps = lengths / lengths.mean()
     pull = np.full(len(areas), 0.0)
     np.divide(areas.mean(), fidelity * areas, out=pull, where=areas > 0)
@@ -48,12 +62,8 @@ def normals_of_small_variation(mesh: Mesh, fidelity: float, rounds: int = 200) -
     normals = _minimise(left, right, caps, pull, start, rounds)
     size = np.linalg.norm(normals, axis=1)
     lost = (size < _LEAST) & start.any(axis=1)
-    if lost.any():
-        raise BeltramiError(
-            f"with a fidelity of {fidelity:g} the normals of {lost.sum()} faces are evened out "
-            "to nothing, with those that point the other way: take a larger one"
-        )
-    return normals / np.where(size > 0, size, 1)[:, None]
+    unit = normals / np.where(size > 0, size, 1)[:, None]
+    return np.where(lost[:, None], start, unit), lost
 
 
 @kernel
