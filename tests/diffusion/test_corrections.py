@@ -188,7 +188,7 @@ class TestBest:
         assert found.size == pytest.approx(moved)
 
     def test_few_vertices_and_little_that_is_left_are_not_corrected(self):
-        mesh, x, changed, sigma = trial(ROUGH, 0.3)
+        mesh, x, changed, sigma = trial(ROUGH, 0.5)
         bound = 26 * sigma**2 / (0.03 * mesh.n_vertices)
         found = best_corrections(mesh, EVERYWHERE, x, changed, sigma, 1.01 * bound)
         assert found.size > 0

@@ -58,7 +58,8 @@ def level_beside(mesh: Mesh, clean: Mesh, filtered: Callable[[Mesh], Mesh]) -> f
     seen = _levels(again, filtered(again))
     if seen.min() > 0:
         found = found * _levels(again, clean) / seen
-    return without_shape(*found, mesh.n_vertices)
+    low, high = found.tolist()
+    return without_shape(low, high, mesh.n_vertices)
 
 
 def without_shape(low: float, high: float, n: int) -> float:
