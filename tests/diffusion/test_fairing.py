@@ -110,8 +110,8 @@ def test_vertices_of_no_face_stay_and_flat_or_no_faces_are_fine():
 def test_denoise_ends_with_it():
     """The normals of an unevenly sampled shape are better for it, and the distances no worse."""
     mesh = noisy(sigma=0.3 * EDGE)
-    _, choice, bench = blind_choice(mesh, None, 40_000, linear=True)
-    before = apply(mesh, bench, choice)
+    blind = blind_choice(mesh, None, 40_000, linear=True)
+    before = apply(mesh, blind.bench, blind.choice)
     found = denoise(mesh, "linear")
     after = found.mesh.vertices
     assert np.array_equal(after, faired(mesh.with_vertices(before), found.predicted_error))
