@@ -31,10 +31,10 @@ if TYPE_CHECKING:
     from beltrami.compression.compress import vertex_order as vertex_order
     from beltrami.compression.decompress import decompress as decompress
     from beltrami.diffusion.bumps import gaussian_bumps as gaussian_bumps
-    from beltrami.diffusion.denoise import Denoised as Denoised
     from beltrami.diffusion.denoise import denoise as denoise
     from beltrami.diffusion.denoise_function import DenoisedFunction as DenoisedFunction
     from beltrami.diffusion.denoise_function import denoise_function as denoise_function
+    from beltrami.diffusion.denoised import Denoised as Denoised
     from beltrami.diffusion.heat import heat as heat
     from beltrami.diffusion.interpolate import interpolate as interpolate
     from beltrami.diffusion.poisson import poisson as poisson
@@ -155,7 +155,7 @@ _HOME = {
     "Certificate": "parameterization.certificate",
     "Curvature": "operators.curvature",
     "Cut": "mesh.cut",
-    "Denoised": "diffusion.denoise",
+    "Denoised": "diffusion.denoised",
     "DenoisedFunction": "diffusion.denoise_function",
     "Diagnosis": "mesh.diagnose",
     "DirectionalLight": "display.light",

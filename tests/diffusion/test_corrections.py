@@ -188,13 +188,31 @@ class TestBest:
         assert found.size == pytest.approx(moved)
 
     def test_few_vertices_and_little_that_is_left_are_not_corrected(self):
-        mesh, x, changed, sigma = trial(ROUGH, 0.5)
-        bound = 26 * sigma**2 / (0.03 * mesh.n_vertices)
+        mesh, x, changed, sigma = trial(ROUGH, 0.9)
+        bound = 26 * sigma**2 / (0.06 * mesh.n_vertices)
         found = best_corrections(mesh, EVERYWHERE, x, changed, sigma, 1.01 * bound)
         assert found.size > 0
         assert best_corrections(mesh, EVERYWHERE, x, changed, sigma, 0.99 * bound) is NONE
         core = np.arange(mesh.n_vertices) % 2 == 0
         assert best_corrections(mesh, core, x, changed, sigma, 1.01 * bound) is NONE
+
+    def test_what_costs_more_has_to_be_surer(self):
+        mesh, x, changed, sigma = trial(ROUGH, 0.1)
+        cheap, dear = (
+            best_corrections(
+                mesh, EVERYWHERE, x, changed, sigma, 26 * sigma**2 / (cost * mesh.n_vertices)
+            )
+            for cost in (0.002, 0.01)
+        )
+        assert np.array_equal(cheap.weights, dear.weights)  # both below 1.5 %
+        mesh, x, changed, sigma = trial(ROUGH, 0.9)
+        cheap, dear = (
+            best_corrections(
+                mesh, EVERYWHERE, x, changed, sigma, 26 * sigma**2 / (cost * mesh.n_vertices)
+            )
+            for cost in (0.01, 0.05)
+        )
+        assert 0 < dear.size < cheap.size
 
     def test_gains_that_may_be_chance_are_none(self):
         """Were x the truth, whatever the noise, there would be nothing to correct."""

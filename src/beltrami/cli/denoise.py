@@ -14,8 +14,8 @@ from beltrami.cli.options import Data, DataName, Mass, MeshFile, Output, Weights
 from beltrami.cli.outputs import check_mesh_output, check_values_output
 
 if TYPE_CHECKING:
-    from beltrami.diffusion.denoise import Denoised
     from beltrami.diffusion.denoise_function import DenoisedFunction
+    from beltrami.diffusion.denoised import Denoised
     from beltrami.mesh.mesh import Mesh
 
 

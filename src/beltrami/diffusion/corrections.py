@@ -21,7 +21,7 @@ _BENT, _MORE_BENT = 0.1, 0.1
 _MOST = 3.0  # a place is not more unusual than that
 _CHANCE = 4.0  # squares of directions below so many times those of chance count for nothing
 _SURE = 4.0  # standard deviations that are no chance
-_COST = 0.03  # of the risk, that fitting so many weights to the noise may cost
+_CHEAP, _DEAR = 0.015, 0.06  # of the risk: what fitting so many weights to the noise may cost
 _ALIKE = 1e-6  # eigenvalue of the correlations, below which a direction is none
 TERMS = len(_REMOVED) + len(_LEFT) + 3 * (len(_REMOVED_HERE) + len(_LEFT_HERE))
 
@@ -79,7 +79,8 @@ def best_corrections(
     :math:`c = (\langle f_k n, y - x \rangle - \sigma^2 \mathrm{div}(f_k n)) / n` is unbiased (Stein
     1981; Luisier, Blu and Unser 2007). In each eigendirection of the correlations of the terms,
     the coefficient z, of the variance :math:`\sigma^2/n` by chance, is shrunk by
-    :math:`\max(0, 1 - 4\sigma^2/(n z^2))` (James and Stein 1961).
+    :math:`\max(0, 1 - s\sigma^2/(n z^2))` (James and Stein 1961), s = 4, or more where fitting all
+    the weights to the noise would cost more than 1.5 % of the risk.
 
     Parameters
     ----------
@@ -95,16 +96,17 @@ def best_corrections(
     Returns
     -------
     Corrections: ``NONE`` if there are so few vertices that fitting the weights to the noise may
-    cost more than 3 % of the risk, if the gain may be chance, or if they are larger than the error
+    cost more than 6 % of the risk, if the gain may be chance, or if they are larger than the error
     is said to be: nothing can gain that. Cost: O(n), for each change 12
     averages over neighbours.
     """
     n = int(core.sum())
-    if not TERMS * sigma**2 <= _COST * n * risk:
+    if not TERMS * sigma**2 <= _DEAR * n * risk:
         return NONE
+    chance = _CHANCE * max(1.0, TERMS * sigma**2 / (_CHEAP * n * risk))
     unit = float(mesh.edge_lengths.mean())
     gram, agreement = _gain(mesh, core, x, changed, sigma, unit)
-    weights = shrunk_weights(gram, agreement, sigma**2 / n)
+    weights = shrunk_weights(gram, agreement, sigma**2 / n, chance)
     size = math.sqrt(max(float(weights @ gram @ weights), 0.0))
     gain = 2 * float(weights @ agreement) - size**2
     if not gain > _SURE * 2 * sigma * size / math.sqrt(n) or size**2 > risk:
@@ -137,13 +139,17 @@ def _gain(
     return terms @ terms.T / n, np.asarray(agreement)
 
 
-def shrunk_weights(gram: Floats, agreement: Floats, variance: float) -> Floats:
+def shrunk_weights(
+    gram: Floats, agreement: Floats, variance: float, chance: float = _CHANCE
+) -> Floats:
     r"""Return the shrunk solution a of :math:`G a = c`, c with errors of the covariance v G.
 
     Parameters
     ----------
     gram, agreement, variance
         G, (k, k), c, (k,), and v.
+    chance
+        Squares of z below so many times v count for nothing.
 
     Examples
     --------
@@ -157,7 +163,7 @@ def shrunk_weights(gram: Floats, agreement: Floats, variance: float) -> Floats:
     roots = np.sqrt(values[kept])
     z = vectors[:, kept].T @ (agreement / norms) / roots
     squares = np.maximum(z**2, np.finfo(float).tiny)
-    shares = np.maximum(1 - _CHANCE * variance / squares, 0.0)
+    shares = np.maximum(1 - chance * variance / squares, 0.0)
     return np.asarray(vectors[:, kept] @ (shares * z / roots) / norms)
 
 

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from beltrami._arrays import Floats, Integers
-from beltrami._carded import Carded
 from beltrami._kinds import checked
 from beltrami._progress import Progress
 from beltrami.diffusion.blind import FEW, Blind, blind_choice
 from beltrami.diffusion.candidates import SECOND
 from beltrami.diffusion.choice import ALONG_NORMALS, AS_IT_IS, apply, named
+from beltrami.diffusion.denoised import Denoised, DenoisedPart
 from beltrami.diffusion.fairing import faired
 from beltrami.diffusion.filling import brought_down
-from beltrami.diffusion.noise import NoiseLevel
 from beltrami.diffusion.patches import components_of, part_of
 from beltrami.diffusion.vertex_update import require_agreeing_normals
 from beltrami.errors import BeltramiError, check_name
@@ -29,124 +27,6 @@ _LEAST_SAMPLE = 8_000  # of one part
 _PARTS = 8  # at most, with a choice of their own
 _OWN = 1_000  # vertices of a component below which it has no choice of its own
 _NO_VOLUME = 1e-12  # of the power 3/2 of the area
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class DenoisedPart:
-    """What was found and done in one component, or in all the smaller ones together.
-
-    Attributes
-    ----------
-    vertices
-        Their numbers.
-    noise
-        What was found of the noise.
-    sigma
-        The level it was taken for: standard deviation along the normals, in the unit of length; 0
-        where nothing is done.
-    mixture, second
-        (filter, weight) of the mixture that was applied, and of the one that was applied to its
-        result.
-    corrected
-        Root mean square of the corrections by curvature and length of edges that came after them,
-        in the unit of length; 0 if none did.
-    predicted_error
-        Root mean square distance of the vertices from the truth that is expected (Stein), in the
-        unit of length.
-    spikes
-        The numbers of those of its vertices that were taken for spikes.
-    """
-
-    vertices: Integers
-    noise: NoiseLevel
-    sigma: float
-    mixture: tuple[tuple[str, float], ...]
-    second: tuple[tuple[str, float], ...]
-    corrected: float
-    predicted_error: float
-    spikes: Integers
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Denoised(Carded):
-    """A denoised mesh, and what was found and done.
-
-    Attributes
-    ----------
-    mesh
-        The result; the topology is the same.
-    parts
-        What was found and done in each component, the largest first; small ones are one part, and
-        those of less than 40 vertices the last one.
-    noise, sigma, mixture, second, corrected
-        Of the largest: see ``DenoisedPart``.
-    predicted_error
-        Root mean square distance of the vertices from the truth that is expected (Stein), in the
-        unit of length.
-    spikes
-        (k,) the vertices that were taken for spikes.
-    volume_change
-        Relative; NaN if the mesh has a boundary, or no volume.
-    warnings
-        Why the result may be worse than predicted, and how many vertices were taken for spikes.
-        Where only spikes were odd, all filters were used, else only low passes.
-    """
-
-    mesh: Mesh
-    parts: tuple[DenoisedPart, ...]
-    volume_change: float
-
-    @property
-    def noise(self) -> NoiseLevel:
-        """What was found of the noise of the largest part."""
-        return self.parts[0].noise
-
-    @property
-    def sigma(self) -> float:
-        """Its level."""
-        return self.parts[0].sigma
-
-    @property
-    def mixture(self) -> tuple[tuple[str, float], ...]:
-        """Its first mixture."""
-        return self.parts[0].mixture
-
-    @property
-    def second(self) -> tuple[tuple[str, float], ...]:
-        """Its second mixture."""
-        return self.parts[0].second
-
-    @property
-    def corrected(self) -> float:
-        """Root mean square of its corrections."""
-        return self.parts[0].corrected
-
-    @property
-    def predicted_error(self) -> float:
-        """Over all vertices of parts."""
-        sizes = [len(part.vertices) for part in self.parts]
-        squares = [part.predicted_error**2 for part in self.parts]
-        return math.sqrt(float(np.average(squares, weights=sizes)))
-
-    @property
-    def spikes(self) -> Integers:
-        """(k,) the vertices of all parts that were taken for spikes, in order."""
-        return np.sort(np.concatenate([part.spikes for part in self.parts]))
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """Of all parts, told apart where there are several."""
-        if len(self.parts) == 1:
-            return self.noise.warnings
-        return tuple(
-            f"part {i}, {len(part.vertices)} vertices: {text}"
-            for i, part in enumerate(self.parts)
-            for text in part.noise.warnings
-        )
-
-    def __repr__(self) -> str:
-        main = self.mixture[0][0] if self.mixture else "nothing to do"
-        return f"<Denoised: σ = {self.sigma:.3g}, mostly {main}>"
 
 
 @checked
@@ -221,7 +101,7 @@ def denoise(
     least that a linear filter leaves.
     Filters of normals, the second mixture and the corrections are left out where what they gain may
     be chance; the corrections also where to fit their 26 weights to the noise may cost more than
-    3 % of the error. The ``predicted_error`` does not count what they gain.
+    6 % of the error. The ``predicted_error`` does not count what they gain.
 
     Spikes are looked for where outliers are said, but not with ``noise`` or ``"linear"``, nor
     below 200 vertices (``beltrami.diffusion.spikes``). Their places are filled, from the vertices

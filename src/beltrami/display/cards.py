@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from beltrami.diffusion.denoise import Denoised
+from beltrami.diffusion.denoised import Denoised
 from beltrami.display.sketches import as_png, sparsity_sketch, spectrum_sketch
 from beltrami.display.srgb import Image
 from beltrami.display.thumbnail import thumbnail

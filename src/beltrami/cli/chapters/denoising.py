@@ -6,7 +6,8 @@ import numpy as np
 
 from beltrami.cli.chapters.chapter import Chapter, Stage
 from beltrami.cli.chapters.noise import with_noise
-from beltrami.diffusion.denoise import Denoised, denoise
+from beltrami.diffusion.denoise import denoise
+from beltrami.diffusion.denoised import Denoised
 from beltrami.diffusion.smooth_mesh import smooth_mesh
 from beltrami.io.registry import write_mesh
 from beltrami.mesh.mesh import Mesh
