@@ -291,6 +291,19 @@ class TestDenoise:
         assert done.corrected == done.parts[0].corrected == 0.125
         assert not found.warnings
 
+    def test_what_was_made_even_beside_creases_is_not(self, monkeypatch):
+        """They may be nearer the truth, but faces that were flat would be bent."""
+        tried = []
+
+        def best(mesh, *_):
+            tried.append(mesh)
+            return NONE
+
+        monkeypatch.setattr(choice, "best_corrections", best)
+        for truth, expected in ((shapes.cube(12), 0), (shapes.blob(500), 1)):
+            denoise(noisy(truth, 0.2)[0])
+            assert len(tried) == expected
+
     def test_smooth_shapes_are_not(self):
         mesh, _ = noisy(shapes.icosphere(3), 0.3)
         assert denoise(mesh).corrected == 0

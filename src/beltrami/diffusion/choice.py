@@ -39,6 +39,7 @@ CAUTION = 1.05  # of σ: see the notes of denoise
 CAUTION_ON_SMOOTH = 1.15  # where a mixture fits the noise more than the shape
 _SURE = 1.5  # standard deviations that are no chance
 _SURE_OF_MORE = 4.0  # where low passes seem to do all, or all was done once
+_BLIND_TO_CREASES = 0.15  # weight of low passes that are; where they have less, corrections harm
 _LEAST = 0.005  # weights below this are left out
 LOW_PASSES: tuple[Filter, ...] = (*LINEAR, *IN_PARTS)
 ALL = (*LOW_PASSES, *OF_NORMALS)
@@ -184,10 +185,13 @@ def choose(
     ]
     trial = replace(trial, caution=max(caution, CAUTION_ON_SMOOTH))
     second, risk = trial.mixture(here, there, sigma, 1, _SURE_OF_MORE)
+    chosen = Choice(sigma, filters, first, second, risk)
+    if first[:simple].sum() < _BLIND_TO_CREASES:
+        return chosen
     moved = [(probe, _mixed(second, x)) for probe, x in zip(probes, there, strict=True)]
     done = _mixed(second, here)
     corrections = best_corrections(mesh, sample.core, done, moved, sigma, risk)
-    return Choice(sigma, filters, first, second, risk, corrections)
+    return replace(chosen, corrections=corrections)
 
 
 def with_borders(filters: tuple[Filter, ...]) -> tuple[Filter, ...]:

@@ -101,7 +101,8 @@ def denoise(
     least that a linear filter leaves.
     Filters of normals, the second mixture and the corrections are left out where what they gain may
     be chance; the corrections also where to fit their 26 weights to the noise may cost more than
-    6 % of the error. The ``predicted_error`` does not count what they gain.
+    6 % of the error, or where nearly all filters that were chosen look at normals: faces that those
+    made even would be bent. The ``predicted_error`` does not count what they gain.
 
     Spikes are looked for where outliers are said, but not with ``noise`` or ``"linear"``, nor
     below 200 vertices (``beltrami.diffusion.spikes``). Their places are filled, from the vertices
