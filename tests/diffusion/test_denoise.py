@@ -388,6 +388,19 @@ def test_ridges_are_kept_by_low_passes_that_look_at_normals():
 
 
 class TestNoiseOfOtherKinds:
+    def test_noise_that_is_strong_beside_long_thin_faces(self):
+        """It folds them, so that no filter of normals knows the shape: low passes do."""
+        flat = shapes.grid(100, 20, dimension=3)
+        x, y, _ = flat.vertices.T
+        truth = flat.with_vertices(np.stack([x, 2 * y, np.sin(3 * x) / 3], axis=1))
+        mesh, _ = noisy(truth, 0.3)
+        found = denoise(mesh)
+        assert any("strong beside the faces" in text for text in found.warnings)
+        assert angle(found.mesh, truth) < 7
+        assert rms(found.mesh, truth) < 0.3 * rms(mesh, truth)
+        mesh, _ = noisy(truth, 0.1)
+        assert not denoise(mesh).warnings
+
     @pytest.mark.parametrize("white", [0.0, 0.15])
     def test_spikes_are_missing_data(self, white):
         """They leave half of what the best linear filter leaves, and less."""

@@ -35,6 +35,7 @@ _TOO_FEW = (
 _SMALL = 200  # vertices below which only linear filters are trusted
 _BORDERS = 0.01  # of the vertices, below which they matter less than what more choice costs
 _LOOKS, _LOOKS_IF_STRONG = 1, 2  # at the normals, before the choice
+_STRONG_BESIDE = 0.77  # of the least height of half of the faces, of the noisy mesh
 _TIMES = 2  # that the level is measured without spikes
 _SEED = 12
 
@@ -126,9 +127,13 @@ def _chosen(
     spikes: Booleans | None = None,
 ) -> tuple[NoiseLevel, Choice, Bench]:
     edge, looks = float(mesh.edge_lengths.mean()), _LOOKS
-    if found.relative > STRONG:
+    beside = found.sigma / max(_height(mesh), np.finfo(float).tiny)
+    if found.relative > STRONG or beside > _STRONG_BESIDE:
         bench, looks = Bench.of(mesh, EVENING_IF_STRONG), _LOOKS_IF_STRONG
         found = _level(mesh, bench.normals, spikes)
+    if beside > _STRONG_BESIDE and not found.relative > STRONG:
+        text = f"the noise is strong beside the faces: {beside:.2f} of the height of most"
+        found = replace(found, warnings=(*found.warnings, text))
     sample = sample_of(mesh, size)
     there = None if spikes is None else spikes[sample.vertices]
     if there is not None:
@@ -164,6 +169,16 @@ def _chosen(
                 else _level(sample.mesh, normals, there).spread
             )
     return found, alike(float(sigma), normals, filters), bench
+
+
+def _height(mesh: Mesh) -> float:
+    """Return the median of the least heights of the faces; of none, infinity."""
+    x = mesh.vertices[mesh.faces]
+    longest = np.linalg.norm(x - np.roll(x, 1, axis=1), axis=2).max(axis=1)
+    kept = longest > 0
+    if not kept.any():
+        return np.inf
+    return float(np.median(2 * mesh.face_areas[kept] / longest[kept]))
 
 
 def _nothing() -> Choice:
