@@ -151,6 +151,8 @@ def test_texture_coordinates_of_three_dimensions_are_left_out(put):
         (text(faces="0 1 3"), "indices of points, 0..2, in the Polys"),
         (text(faces="0 1 -1"), "indices of points"),
         (text(faces="0 1 .5"), "whole numbers of int32"),
+        (text(faces="0 1 2").replace(b'"Int32" Name="c', b'"Float32" Name="c'),
+         "whole numbers as offsets and connectivity of Polys"),
         (text(faces="0 1"), "3 numbers in the array 'connectivity'"),
         (text(ends="2"), "three corners or more in each of the Polys"),
         (text(ends="3 1", polys=2), "three corners or more"),
@@ -184,15 +186,14 @@ def test_every_cut_and_changed_bytes_are_a_mesh_or_one_clear_line(path):
         for place in rng.integers(60, len(whole), 2):
             changed[place] = rng.integers(256)
         broken.append(bytes(changed))
-    outcomes = set()
+    refused = []
     for data in broken:
         try:
             read_vtp(Source("a.vtp", np.frombuffer(data, np.uint8)), Room("a.vtp", 1 << 16))
-            outcomes.add("read")
         except FileFormatError as error:
-            assert "\n" not in str(error)  # noqa: PT017
-            outcomes.add("refused")
-    assert outcomes == {"read", "refused"}
+            refused.append(str(error))
+    assert 0 < len(refused) < len(broken)
+    assert not any("\n" in line for line in refused)
 
 
 def packed(values, compress, blocks=1, raw=False):

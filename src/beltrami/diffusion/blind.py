@@ -127,13 +127,14 @@ def _chosen(
     spikes: Booleans | None = None,
 ) -> tuple[NoiseLevel, Choice, Bench]:
     edge, looks = float(mesh.edge_lengths.mean()), _LOOKS
-    beside = found.sigma / max(_height(mesh), np.finfo(float).tiny)
-    if found.relative > STRONG or beside > _STRONG_BESIDE:
+    height = _height(mesh)
+    beside = found.sigma > _STRONG_BESIDE * height
+    if found.relative > STRONG or beside:
         bench, looks = Bench.of(mesh, EVENING_IF_STRONG), _LOOKS_IF_STRONG
         found = _level(mesh, bench.normals, spikes)
-    if beside > _STRONG_BESIDE and not found.relative > STRONG:
-        text = f"the noise is strong beside the faces: {beside:.2f} of the height of most"
-        found = replace(found, warnings=(*found.warnings, text))
+    if beside and not found.relative > STRONG:
+        text = f"the noise is strong beside the faces, whose median height is {height / edge:.2f}"
+        found = replace(found, warnings=(*found.warnings, f"{text} mean edge lengths"))
     sample = sample_of(mesh, size)
     there = None if spikes is None else spikes[sample.vertices]
     if there is not None:
@@ -172,7 +173,7 @@ def _chosen(
 
 
 def _height(mesh: Mesh) -> float:
-    """Return the median of the least heights of the faces; of none, infinity."""
+    """Return the median of the least heights of the faces; infinity, if none has an edge."""
     x = mesh.vertices[mesh.faces]
     longest = np.linalg.norm(x - np.roll(x, 1, axis=1), axis=2).max(axis=1)
     kept = longest > 0

@@ -46,14 +46,13 @@ def denoise(
     filters of the normals, and normals of small total variation, of many strengths; where a
     hundredth of the vertices is on borders, 36 low passes more that average borders along
     themselves. They are mixed with those weights that make Stein's unbiased estimate of the error
-    least. The result is filtered once more, by normals, if that lowers the estimate. Last, where
+    least. The result is filtered once more, by normals, if that lowers the estimate. Then, where
     there are vertices enough to tell, the result is corrected: some of what was removed comes back,
     and some of what is left goes, by weights that depend on the curvature and on the length of the
-    edges
-    (``beltrami.diffusion.corrections``). The displacements of low passes
-    are along the normals, so that little shrinks or slides; the estimate counts what the other
-    filters move sideways as error. Last, faces that are small beside the error that is left are
-    faired, sideways too: it would spoil their normals.
+    edges (``beltrami.diffusion.corrections``). The displacements of low passes are along the
+    normals, so that little shrinks or slides; the estimate counts what the other filters move
+    sideways as error. Last, faces that are small beside the error that is left are faired, sideways
+    too: it would spoil their normals.
 
     Chapter items: P15, P42, P43, P45.
 
@@ -68,12 +67,13 @@ def denoise(
 
     Returns
     -------
-    Denoised: the mesh first. If the noise does not look white and Gaussian, or is very strong, it
-    says so in ``warnings``, and only low passes are used, whose estimate of the error needs no
-    Gaussian. Then the level is the root mean square, outliers included; of noise that is not white
-    (``noise_colour``) it is that of all frequencies, and the estimate has its covariance. Spikes,
-    single vertices or pairs that are far off, are told in ``spikes``: they are missing data, and
-    the rest is denoised as if it were all, safely if it is odd still.
+    Denoised: the mesh first. If the noise does not look white and Gaussian, or is very strong, or
+    strong beside long thin faces, which it folds, ``warnings`` say so, and only low passes are
+    used, whose estimate of the error needs no Gaussian. Then the level is the root mean square,
+    outliers included; of noise that is not white (``noise_colour``) it is that of all frequencies,
+    and the estimate has its covariance. Spikes, single vertices or pairs that are far off, are told
+    in ``spikes``: they are missing data, and the rest is denoised as if it were all, safely if it
+    is odd still.
 
     Raises
     ------

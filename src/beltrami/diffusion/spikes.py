@@ -14,11 +14,11 @@ from beltrami._jit import kernel
 from beltrami.diffusion.candidates import EVENING, along_normals
 from beltrami.diffusion.filling import error_of_filling, filled
 from beltrami.diffusion.linear_filters import equal_rows, low_passed
+from beltrami.diffusion.noise import median_level
 from beltrami.diffusion.patches import sample_of
 from beltrami.mesh.mesh import Mesh
 
 _ROUNDS = 5
-_NORMAL = 0.6744897501960817  # median of the absolute values of a standard normal variable
 _LEAST = 0.01  # mean edges: what is off by little more is no matter
 _NEAR = 0.3  # of its distance from most planes, within which a plane holds a vertex
 _HELD = 0.3  # of the planes, that hold a vertex of a crease
@@ -127,7 +127,7 @@ def _candidates(mesh: Mesh, planes: _Planes, edge: float) -> tuple[Booleans, flo
 def _limit(r: Floats) -> float:
     """Return from which size on r (n,) is more likely a spike; infinite if there are none."""
     r = np.abs(r[:: max(1, len(r) // _FITTED)])
-    quiet = max(float(np.median(r)) / _NORMAL, _LEAST)
+    quiet = max(median_level(r), _LEAST)
     share, loud = 0.1, max(math.sqrt(float((r**2).mean())), 3 * quiet)
     for _ in range(_STEPS):
         with np.errstate(under="ignore"):

@@ -78,7 +78,8 @@ class Packing:
     ) -> bytes:
         word = self._head.itemsize
         first = int(np.frombuffer(part(0, word), self._head)[0])
-        if self._unpack is None:
+        unpack = self._unpack
+        if unpack is None:
             if first != size:
                 raise ValueError(f"its head says {first}")
             self._room.take(size)
@@ -93,15 +94,17 @@ class Packing:
             raise ValueError(f"its head says {first} blocks, {whole} long, the last one {last}")
         self._room.take(size)
         blocks = after((3 + first) * word, sum(sizes))
-        return self._unpacked(blocks, sizes, [whole] * (first - 1) + [last])
+        return _unpacked(unpack, blocks, sizes, [whole] * (first - 1) + [last])
 
-    def _unpacked(self, blocks: bytes, sizes: list[int], lengths: list[int]) -> bytes:
-        assert self._unpack is not None  # noqa: S101 - for the types
-        result, at = bytearray(), 0
-        for size, length in zip(sizes, lengths, strict=True):
-            result += self._unpack(blocks[at : at + size], length)
-            at += size
-        return bytes(result)
+
+def _unpacked(
+    unpack: Callable[[bytes, int], bytes], blocks: bytes, sizes: list[int], lengths: list[int]
+) -> bytes:
+    result, at = bytearray(), 0
+    for size, length in zip(sizes, lengths, strict=True):
+        result += unpack(blocks[at : at + size], length)
+        at += size
+    return bytes(result)
 
 
 def _letters(size: int) -> int:

@@ -79,6 +79,9 @@ def _faces(file: VtkXml, piece: Element, name: str, n: int) -> Integers:
     found = {array.attributes.get("Name"): array for array in _arrays(piece, name)}
     if not {"offsets", "connectivity"} <= found.keys():
         raise file.wrong(f"expected the arrays offsets and connectivity in {name}")
+    for array in (found["offsets"], found["connectivity"]):
+        if "Int" not in array.attributes.get("type", ""):
+            raise file.wrong(f"expected whole numbers as offsets and connectivity of {name}")
     ends = file.array(found["offsets"], count).astype(np.int64)
     sizes = np.diff(ends, prepend=0)
     if (sizes < 3).any():
