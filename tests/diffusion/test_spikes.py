@@ -12,7 +12,7 @@ from beltrami.mesh import shapes
 from beltrami.mesh.mesh import Mesh
 
 BLOB = shapes.blob(2500)
-MESHES = Path(os.environ.get("BELTRAMI_MESHES", ""))
+FOLDER = os.environ.get("BELTRAMI_MESHES")
 
 
 def spiked(truth, share, white=0.0, seed=0, *, pairs=False, one_sided=False):
@@ -216,7 +216,9 @@ def test_few_vertices(rings):
     "name", ["Fandisk0.3/Original.obj", "spot_triangulated.obj", "fertility.off"]
 )
 def test_shapes_have_none_of_their_own(name):
-    mesh = read_mesh(MESHES / name)
+    if not FOLDER:
+        pytest.skip("BELTRAMI_MESHES names no folder of meshes")
+    mesh = read_mesh(Path(FOLDER) / name)
     assert find_spikes(mesh) is None
     found = find_spikes(spiked(mesh, 0.1)[0])
     assert rms(found.mesh, mesh) < 0.06
