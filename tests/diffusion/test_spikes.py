@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from beltrami.diffusion.blind import blind_choice
 from beltrami.diffusion.spikes import _limit, _Planes, find_spikes
 from beltrami.io.registry import read_mesh
 from beltrami.mesh import shapes
@@ -222,3 +223,12 @@ def test_shapes_have_none_of_their_own(name):
     assert find_spikes(mesh) is None
     found = find_spikes(spiked(mesh, 0.1)[0])
     assert rms(found.mesh, mesh) < 0.06
+
+
+def test_the_error_that_is_expected_counts_what_filling_leaves():
+    mesh = spiked(BLOB, 0.1, 0.05)[0]
+    found, spikes = blind_choice(mesh, None, 40_000), find_spikes(mesh)
+    share = spikes.found.mean()
+    of_filling = spikes.error**2 - found.choice.sigma**2
+    assert of_filling > 1.2 * found.choice.risk
+    assert found.risk == pytest.approx((1 - share) * found.choice.risk + share * of_filling)
