@@ -417,10 +417,11 @@ class TestNoiseOfOtherKinds:
             sigma = white * BLOB.edge_lengths.mean()
             assert found.sigma == pytest.approx(sigma, rel=0.2)
 
-    def test_spikes_come_down_in_their_place_and_not_beside(self):
+    @pytest.mark.parametrize("white", [0.15, 0.2])
+    def test_spikes_come_down_in_their_place_and_not_beside(self, white):
         """Along normals with noise they are off by a fifth of their height."""
         truth = shapes.icosphere(4)
-        mesh, _ = spiked(truth, 0.15)
+        mesh, _ = spiked(truth, white)
         found = denoise(mesh)
         x, n = found.mesh.vertices, truth.vertices
         beside = np.linalg.norm(x - np.einsum("ij,ij->i", x, n)[:, None] * n, axis=1)
