@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 
 from beltrami._arrays import Booleans, Floats, Integers
-from beltrami.diffusion.candidates import EVENING_IF_STRONG, Bench
+from beltrami.diffusion.candidates import EVENING_IF_STRONG, Bench, Filter
 from beltrami.diffusion.choice import (
     ALL,
+    CAUTION,
     CAUTION_ON_SMOOTH,
     LOW_PASSES,
     Choice,
@@ -19,9 +19,9 @@ from beltrami.diffusion.choice import (
     with_borders,
 )
 from beltrami.diffusion.colour import NoiseColour, noise_colour, with_colour
-from beltrami.diffusion.level import level_beside
-from beltrami.diffusion.linear_filters import LINEAR, Linear, equal_rows
-from beltrami.diffusion.noise import SPIKED, STRONG, NoiseLevel, noise_level
+from beltrami.diffusion.level import level_beside, rough_part
+from beltrami.diffusion.linear_filters import LINEAR, equal_rows
+from beltrami.diffusion.noise import STRONG, NoiseLevel, noise_level
 from beltrami.diffusion.patches import Sample, sample_of, sizes_of_components
 from beltrami.diffusion.spikes import Spikes, find_spikes
 from beltrami.mesh.mesh import Mesh
@@ -37,6 +37,8 @@ _BORDERS = 0.01  # of the vertices, below which they matter less than what more 
 _LOOKS, _LOOKS_IF_STRONG = 1, 2  # at the normals, before the choice
 _STRONG_BESIDE = 0.77  # of the least height of half of the faces, of the noisy mesh
 _TIMES = 2  # that the level is measured without spikes
+_FAINTEST = 1e-3  # mean edges, that noise is taken for beside the outliers of a shape
+_LEFT = 0.55  # of the square that goes beside a first result, of outliers that are the shape's
 _SEED = 12
 
 
@@ -69,107 +71,205 @@ def blind_choice(mesh: Mesh, noise: float | None, size: int, *, linear: bool = F
 
     Spikes are put where their neighbours say before, and do not count.
     """
-    bench = Bench.of(mesh)
-    found = _level(mesh, bench.normals)
-    largest = int(sizes_of_components(mesh)[1].max())
+    seen = _Seen.of(mesh, noise, size, linear=linear)
     none = np.zeros(0, np.int64)
-    if noise is None and largest < FEW:
-        told = replace(found, warnings=(_TOO_FEW,))
-        return Blind(told, _nothing(), bench, mesh, none, 0.0)
-    if noise is None and not linear and found.kurtosis > SPIKED and largest >= _SMALL:
+    if noise is None and seen.largest < FEW:
+        told = replace(seen.found, warnings=(_TOO_FEW,))
+        return Blind(told, _nothing(), seen.bench, mesh, none, 0.0)
+    if noise is None and not linear and seen.found.has_outliers and seen.largest >= _SMALL:
         spikes = find_spikes(mesh)
         if spikes is not None:
-            return _without(spikes, found, size, largest)
-    told, choice, bench = _chosen(mesh, bench, found, noise, size, largest, linear=linear)
-    return Blind(told, choice, bench, mesh, none, choice.risk)
+            return _without(spikes, seen.found, size)
+    choice = seen.choice()
+    return Blind(seen.found, choice, seen.bench, mesh, none, choice.risk)
 
 
-def _without(spikes: Spikes, found: NoiseLevel, size: int, largest: int) -> Blind:
+def _without(spikes: Spikes, found: NoiseLevel, size: int) -> Blind:
     """Choose for the mesh without them; what is left of its kurtosis is small beside them."""
-    bench = Bench.of(spikes.mesh)
-    rest = _level(spikes.mesh, bench.normals, spikes.found)
-    told, choice, bench = _chosen(
-        spikes.mesh, bench, rest, None, size, largest, linear=False, spikes=spikes.found
-    )
+    seen = _Seen.of(spikes.mesh, None, size, linear=False, spikes=spikes.found)
+    choice = seen.choice()
     count, share = int(spikes.found.sum()), float(spikes.found.mean())
     text = f"{count} vertices were taken for spikes, and put where their neighbours say"
-    others = tuple(one for one in told.warnings if "kurtosis" not in one)
+    others = seen.found.explained().warnings
     noise = replace(found, warnings=(*found.warnings, text, *others))
     of_filling = max(spikes.error**2 - choice.sigma**2, choice.risk)
     risk = (1 - share) * choice.risk + share * of_filling
-    return Blind(noise, choice, bench, spikes.mesh, np.flatnonzero(spikes.found), risk)
+    return Blind(noise, choice, seen.bench, spikes.mesh, np.flatnonzero(spikes.found), risk)
+
+
+@dataclass(frozen=True, eq=False)
+class _Seen:
+    """What is known of a mesh before anything is chosen.
+
+    Attributes
+    ----------
+    noise
+        Its level, if it was said.
+    found
+        What was measured of it.
+    bench, sample
+        Of the mesh.
+    colour
+        Of the noise, if it has one.
+    spikes
+        The vertices of the sample that were put in the place of spikes, if there were some.
+    largest
+        Vertices of the largest component.
+    looks
+        At the normals, before the choice.
+    linear, on_border
+        Whether only linear filters are asked for, and whether borders matter.
+    """
+
+    noise: float | None
+    found: NoiseLevel
+    bench: Bench
+    sample: Sample
+    colour: NoiseColour | None
+    spikes: Booleans | None
+    largest: int
+    looks: int
+    linear: bool
+    on_border: bool
+
+    @classmethod
+    def of(
+        cls,
+        mesh: Mesh,
+        noise: float | None,
+        size: int,
+        *,
+        linear: bool,
+        spikes: Booleans | None = None,
+    ) -> _Seen:
+        """Measure the noise."""
+        bench, looks = Bench.of(mesh), _LOOKS
+        found = _level(mesh, bench.normals, spikes)
+        largest = int(sizes_of_components(mesh)[1].max())
+        edge, height = float(mesh.edge_lengths.mean()), _height(mesh)
+        beside = found.sigma > _STRONG_BESIDE * height
+        if found.relative > STRONG or beside:
+            bench, looks = Bench.of(mesh, EVENING_IF_STRONG), _LOOKS_IF_STRONG
+            found = _level(mesh, bench.normals, spikes)
+        if beside and not found.relative > STRONG:
+            told = (
+                f"the noise is strong beside the faces, whose median height is {height / edge:.2f}"
+            )
+            found = replace(found, warnings=(*found.warnings, f"{told} mean edge lengths"))
+        sample = sample_of(mesh, size)
+        there = None if spikes is None else spikes[sample.vertices]
+        if there is not None:
+            sample = replace(sample, core=sample.core & ~there)
+        colour = None
+        if largest >= _ENOUGH and spikes is None:
+            colour = _colour(sample, bench.normals[sample.vertices], edge)
+        if colour is not None:
+            found = with_colour(found, colour, equal_rows(sample.mesh))
+        borders = float(mesh.topology.on_boundary[sample.vertices[sample.core]].mean())
+        few = linear or mesh.n_vertices < _SMALL
+        seen = cls(
+            noise, found, bench, sample, colour, there, largest, looks, few, borders > _BORDERS
+        )
+        if found.has_outliers and colour is None and mesh.n_vertices >= _SMALL:
+            return replace(seen, found=seen._explained(_FAINTEST * edge))
+        return seen
+
+    def _explained(self, least: float) -> NoiseLevel:
+        """Return what was found, without the warning of outliers if they are the shape's.
+
+        They are if more of them goes than is left beside a first result, for which outliers did
+        not count: it tells on which side of a crease a vertex is.
+        """
+        level = max(self.found.sigma if self.noise is None else self.noise, least)
+        normals, low_passes = self.bench.normals[self.sample.vertices], self._low_passes()
+        low = self._chosen(level, normals, low_passes, known=True, caution=CAUTION_ON_SMOOTH)
+        rough = rough_part(self.sample.mesh, self._filtered(self.sample.mesh, low))
+        left, gone = rough.spread**2 - rough.level**2, self.found.spread**2 - rough.spread**2
+        return self.found.explained() if left < _LEFT * gone else self.found
+
+    def choice(self) -> Choice:
+        """Look, measure the level beside what is seen, and choose."""
+        odd = bool(self.found.warnings)
+        level = self.found.spread if odd else self.found.sigma
+        sigma = level if self.noise is None else self.noise
+        if sigma == 0:
+            return _nothing()
+        known = self.noise is not None or (odd and self.colour is None)
+        normals, low_passes = self.bench.normals[self.sample.vertices], self._low_passes()
+        for _ in range(self.looks):
+            low = self._chosen(sigma, normals, low_passes, known=known, caution=CAUTION_ON_SMOOTH)
+            clean = self._filtered(self.sample.mesh, low)
+            normals = clean.vertex_normals
+            if self.noise is None and self.colour is None:
+                sigma = self._level_beside(clean, low, sigma)
+        filters = low_passes
+        if not self.linear and not odd:
+            filters = with_borders(ALL) if self.on_border else ALL
+        return self._chosen(sigma, normals, filters, known=known)
+
+    def _low_passes(self) -> tuple[Filter, ...]:
+        low_passes = LINEAR if self.linear else LOW_PASSES
+        return with_borders(low_passes) if self.on_border else low_passes
+
+    def _chosen(
+        self,
+        sigma: float,
+        normals: Floats,
+        filters: tuple[Filter, ...],
+        *,
+        known: bool,
+        caution: float = CAUTION,
+    ) -> Choice:
+        return choose(
+            self.sample,
+            sigma,
+            normals,
+            filters,
+            known=known,
+            caution=caution,
+            evening=self.bench.evening,
+            colour=self.colour,
+        )
+
+    def _filtered(self, mesh: Mesh, choice: Choice) -> Mesh:
+        """Return the filtered mesh, along whose normals the noise is more truly than along its own.
+
+        The estimate of the error needs the directions of the noise. Those of the evened mesh have
+        noise of their own, or have lost the ridges, and agree with some filters more than others.
+        """
+        return mesh.with_vertices(apply(mesh, Bench.of(mesh, self.bench.evening), choice))
+
+    def _level_beside(self, clean: Mesh, low: Choice, sigma: float) -> float:
+        """Return the level beside a first result; the root mean square if some of it is odd."""
+        mesh = self.sample.mesh
+        if self.spikes is not None:
+            for white in _whites(self.spikes):
+                there = mesh.vertices + sigma * white[:, None] * clean.vertex_normals
+                sigma = rough_part(mesh.with_vertices(there), clean).spread
+            return sigma
+        if self.found.warnings:
+            return _level(mesh, clean.vertex_normals).spread
+        return level_beside(mesh, clean, lambda one: self._filtered(one, low))
 
 
 def _level(mesh: Mesh, normals: Floats, spikes: Booleans | None = None) -> NoiseLevel:
-    """Measure it; where there were spikes, by the root mean square: some small ones are left.
-
-    What was put in their place has no noise of its own, so it gets some as strong as the others'.
-    """
+    """Measure it; where there were spikes, by the root mean square: some small ones are left."""
     A, x, edge = mesh.topology.adjacency, mesh.vertices, float(mesh.edge_lengths.mean())
     found = noise_level(A, x, edge, normals)
     if spikes is None:
         return found
-    white = np.random.default_rng(_SEED).standard_normal(len(x)) * spikes
-    for _ in range(_TIMES):
+    for white in _whites(spikes):
         found = noise_level(A, x + found.spread * white[:, None] * normals, edge, normals)
     return replace(found, sigma=found.spread)
 
 
-def _chosen(
-    mesh: Mesh,
-    bench: Bench,
-    found: NoiseLevel,
-    noise: float | None,
-    size: int,
-    largest: int,
-    *,
-    linear: bool,
-    spikes: Booleans | None = None,
-) -> tuple[NoiseLevel, Choice, Bench]:
-    edge, looks = float(mesh.edge_lengths.mean()), _LOOKS
-    height = _height(mesh)
-    beside = found.sigma > _STRONG_BESIDE * height
-    if found.relative > STRONG or beside:
-        bench, looks = Bench.of(mesh, EVENING_IF_STRONG), _LOOKS_IF_STRONG
-        found = _level(mesh, bench.normals, spikes)
-    if beside and not found.relative > STRONG:
-        text = f"the noise is strong beside the faces, whose median height is {height / edge:.2f}"
-        found = replace(found, warnings=(*found.warnings, f"{text} mean edge lengths"))
-    sample = sample_of(mesh, size)
-    there = None if spikes is None else spikes[sample.vertices]
-    if there is not None:
-        sample = replace(sample, core=sample.core & ~there)
-    normals = bench.normals[sample.vertices]
-    colour = None
-    if largest >= _ENOUGH and spikes is None:
-        colour = _colour(sample, normals, edge)
-    if colour is not None:
-        found = with_colour(found, colour, equal_rows(sample.mesh))
-    odd = bool(found.warnings)
-    sigma = noise if noise is not None else found.spread if odd else found.sigma
-    if sigma == 0:
-        return found, _nothing(), bench
-    few = linear or mesh.n_vertices < _SMALL
-    known = noise is not None or (odd and colour is None)
-    alike = partial(choose, sample, known=known, evening=bench.evening, colour=colour)
-    low_passes, filters = (
-        LINEAR if few else LOW_PASSES,
-        LINEAR if few else LOW_PASSES if odd else ALL,
-    )
-    if mesh.topology.on_boundary[sample.vertices[sample.core]].mean() > _BORDERS:
-        low_passes, filters = with_borders(low_passes), with_borders(filters)
-    for _ in range(looks):
-        low = alike(float(sigma), normals, low_passes, caution=CAUTION_ON_SMOOTH)
-        once_more = partial(_filtered, evening=bench.evening, choice=low)
-        clean = once_more(sample.mesh)
-        normals = clean.vertex_normals
-        if noise is None and colour is None:
-            sigma = (
-                level_beside(sample.mesh, clean, once_more)
-                if there is None and not odd
-                else _level(sample.mesh, normals, there).spread
-            )
-    return found, alike(float(sigma), normals, filters), bench
+def _whites(spikes: Booleans) -> list[Floats]:
+    """Return noise for what was put in the place of spikes, which has none of its own.
+
+    It has to be as strong as the others', whose level is measured with it: so, some times.
+    """
+    white = np.random.default_rng(_SEED).standard_normal(len(spikes)) * spikes
+    return [white] * _TIMES
 
 
 def _height(mesh: Mesh) -> float:
@@ -184,15 +284,6 @@ def _height(mesh: Mesh) -> float:
 
 def _nothing() -> Choice:
     return Choice(0.0, (), np.zeros(0), np.zeros(0), 0.0)
-
-
-def _filtered(mesh: Mesh, evening: Linear, choice: Choice) -> Mesh:
-    """Return the filtered mesh, along whose normals the noise is more truly than along its own.
-
-    The estimate of the error needs the directions of the noise. Those of the evened mesh have
-    noise of their own, or have lost the ridges, and agree with some filters more than with others.
-    """
-    return mesh.with_vertices(apply(mesh, Bench.of(mesh, evening), choice))
 
 
 def _colour(sample: Sample, normals: Floats, edge: float) -> NoiseColour | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import csr_array, eye_array
@@ -49,6 +49,16 @@ class NoiseLevel:
     correlation: float
     relative: float
     warnings: tuple[str, ...]
+
+    @property
+    def has_outliers(self) -> bool:
+        """Whether a warning says so."""
+        return _outliers(self.kurtosis) in self.warnings
+
+    def explained(self) -> NoiseLevel:
+        """Return it without the warning of outliers: what they are is known."""
+        left = tuple(one for one in self.warnings if one != _outliers(self.kurtosis))
+        return replace(self, warnings=left)
 
 
 def noise_level(
@@ -134,10 +144,7 @@ def averaging_matrix(adjacency: csr_array) -> csr_array:
 def _warnings(kurtosis: float, excess: float, edges: int, relative: float) -> list[str]:
     found = []
     if kurtosis > SPIKED:
-        found.append(
-            f"the rough part has outliers (its kurtosis is {kurtosis:.1f}, that of Gaussian noise "
-            "is 3): the noise has spikes, or there is little noise beside sharp features"
-        )
+        found.append(_outliers(kurtosis))
     if edges and excess < _COLOURED - 2 / np.sqrt(edges):
         found.append(
             f"the noise is not white: neighbours are alike (the correlation is off by {excess:.3f})"
@@ -145,3 +152,10 @@ def _warnings(kurtosis: float, excess: float, edges: int, relative: float) -> li
     if relative > STRONG:
         found.append(f"the noise is very strong: {relative:.2f} mean edge lengths")
     return found
+
+
+def _outliers(kurtosis: float) -> str:
+    return (
+        f"the rough part has outliers (its kurtosis is {kurtosis:.1f}, that of Gaussian noise "
+        "is 3): the noise has spikes, or there is little noise beside sharp features"
+    )

@@ -32,6 +32,7 @@ _CLEAR = 4.5  # errors of filling, that spikes are large
 _LARGE = 0.25  # mean edges, that they are
 _ALONE, _BY_CHANCE = 1.2, 1.5  # neighbours that are spikes: of a pair, and times the expected
 _MOST = 0.35  # of the vertices
+_MORE_ROUNDS, _LESS = 4, 0.9  # that look for overlooked ones, while the error of filling falls
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,6 +97,19 @@ def find_spikes(mesh: Mesh) -> Spikes | None:
     size = math.sqrt(float((away**2).mean())) if len(away) else 0.0
     if size < max(_CLEAR * error, _LARGE * edge) or _together(mesh, found):
         return None
+    for _ in range(_MORE_ROUNDS):
+        more = _overlooked(mesh, planes, found, x, max(limit * edge, _CLEAR * error))
+        more &= _away(mesh, filled(mesh, found | more, way)) > max(limit * edge, _CLEAR * error)
+        if not more.any():
+            break
+        found = found | more
+        x = filled(mesh, found, way)
+        before, error = (
+            error,
+            min(error, error_of_filling(sample.mesh, found[sample.vertices], way)),
+        )
+        if error > _LESS * before:
+            break
     return Spikes(found, mesh.with_vertices(x), error)
 
 
@@ -122,6 +136,16 @@ def _candidates(mesh: Mesh, planes: _Planes, edge: float) -> tuple[Booleans, flo
             break
         x = filled(mesh, found, "noise" if noisy else "plain")
     return found, limit, noisy
+
+
+def _overlooked(mesh: Mesh, planes: _Planes, found: Booleans, x: Floats, limit: float) -> Booleans:
+    """Return which others may be spikes, since there are some: those that planes hold by chance.
+
+    Those of creases stand in lines.
+    """
+    off, _ = planes.compared(mesh, x)
+    more = ~found & (np.abs(off) > limit)
+    return np.asarray(more & ~(mesh.topology.adjacency @ more.astype(np.float64) > 0))
 
 
 def _limit(r: Floats) -> float:
