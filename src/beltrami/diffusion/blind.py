@@ -38,6 +38,7 @@ _LOOKS, _LOOKS_IF_STRONG = 1, 2  # at the normals, before the choice
 _STRONG_BESIDE = 0.77  # of the least height of half of the faces, of the noisy mesh
 _TIMES = 2  # that the level is measured without spikes
 _FAINTEST = 1e-3  # mean edges, that noise is taken for beside the outliers of a shape
+_ROUNDING = 1e-9  # mean edges, up to which there is no noise
 _LEFT = 0.55  # of the square that goes beside a first result, of outliers that are the shape's
 _SEED = 12
 
@@ -192,7 +193,7 @@ class _Seen:
         odd = bool(self.found.warnings)
         level = self.found.spread if odd else self.found.sigma
         sigma = level if self.noise is None else self.noise
-        if sigma == 0:
+        if sigma <= _ROUNDING * float(self.sample.mesh.edge_lengths.mean()):
             return _nothing()
         known = self.noise is not None or (odd and self.colour is None)
         normals, low_passes = self.bench.normals[self.sample.vertices], self._low_passes()

@@ -67,7 +67,10 @@ def find_spikes(mesh: Mesh) -> Spikes | None:
 
     A shape has details of all sizes, and nobody can tell which are its own. So they are spikes only
     if they are large (4.5 times the error that filling makes for other vertices, and 0.25 mean
-    edges), and if they stand alone or in pairs, but for what chance brings together.
+    edges), and if they stand alone or in pairs, but for what chance brings together. Where there
+    are some, others that planes hold are looked at once more: alone, they are none of a crease,
+    and they are spikes too if filling puts them elsewhere. So the error of filling falls, and with
+    it the size from which on they are seen.
 
     Parameters
     ----------

@@ -1,0 +1,167 @@
+"""Outliers of the rough part: those of sharp features are the shape's, those of noise are said."""
+
+import numpy as np
+import pytest
+
+from beltrami.diffusion.denoise import denoise
+from beltrami.diffusion.level import clipped_level, rough_part
+from beltrami.diffusion.noise import noise_level
+from beltrami.diffusion.spikes import find_spikes
+from beltrami.mesh import shapes
+from made_once import MadeOnce, creature
+
+SHARP = MadeOnce(
+    {
+        "cube": lambda: shapes.cube(16),
+        "fine cube": lambda: shapes.cube(24),
+        "can": lambda: shapes.cylinder(60, 30, caps=True),
+        "box": lambda: scaled(shapes.cube(14), [1, 1.3, 0.7]),
+    }
+)
+SMOOTH = MadeOnce({"blob": lambda: creature(1000), "torus": lambda: shapes.torus(60, 30)})
+
+
+def scaled(mesh, factors):
+    return mesh.with_vertices(mesh.vertices * factors)
+
+
+def moved(truth, noise):
+    """Along the normals, noise in mean edges."""
+    way = truth.edge_lengths.mean() * noise
+    return truth.with_vertices(truth.vertices + way[:, None] * truth.vertex_normals)
+
+
+def white(truth, level, seed=0):
+    return moved(truth, level * np.random.default_rng(seed).normal(size=truth.n_vertices))
+
+
+def level_of(mesh):
+    A, edge = mesh.topology.adjacency, mesh.edge_lengths.mean()
+    return noise_level(A, mesh.vertices, edge, mesh.vertex_normals)
+
+
+def rms(mesh, truth):
+    """In mean edges."""
+    square = ((mesh.vertices - truth.vertices) ** 2).sum(axis=1).mean()
+    return float(np.sqrt(square) / truth.edge_lengths.mean())
+
+
+class TestRoughPart:
+    def test_against_the_definition(self):
+        clean = shapes.cube(4)
+        mesh, normals = white(clean, 0.05), clean.vertex_normals
+        W = np.zeros((clean.n_vertices, clean.n_vertices))
+        for i, j in mesh.edges:
+            length = np.linalg.norm(clean.vertices[i] - clean.vertices[j])
+            apart = ((normals[i] - normals[j]) ** 2).sum()
+            W[i, j] = W[j, i] = np.exp(-apart / (2 * 0.5**2)) / length
+        R = np.linalg.matrix_power(np.eye(len(W)) - W / W.sum(axis=1)[:, None], 3)
+        rough = ((R @ mesh.vertices) * normals).sum(axis=1)
+        rough /= np.sqrt((R**2 * (normals @ normals.T) ** 2).sum(axis=1))
+        found = rough_part(mesh, clean)
+        assert found.spread == pytest.approx(np.sqrt((rough**2).mean()), rel=1e-9)
+        assert found.level == pytest.approx(clipped_level(rough), rel=1e-9)
+
+    @pytest.mark.parametrize("name", ["cube", "can", "box"])
+    def test_beside_the_truth_creases_leave_no_outliers(self, name):
+        truth = SHARP[name]
+        mesh = white(truth, 0.03)
+        found, edge = rough_part(mesh, truth), truth.edge_lengths.mean()
+        assert found.level / edge == pytest.approx(0.03, rel=0.15)
+        assert found.spread < 1.2 * found.level
+        assert level_of(mesh).spread > 1.5 * found.spread
+
+    def test_spikes_stay(self):
+        torus = SMOOTH["torus"]
+        heights = np.random.default_rng(1).random(torus.n_vertices) < 0.05
+        found = rough_part(moved(torus, heights), torus)
+        assert found.spread > 2.5 * found.level
+
+
+@pytest.mark.parametrize(("name", "level"), [("cube", 0.02), ("can", 0.03), ("box", 0.05)])
+def test_little_noise_beside_creases_is_measured_and_taken_off(name, level):
+    """The creases make the root mean square two times as large, or more."""
+    truth = SHARP[name]
+    mesh = white(truth, level)
+    before = level_of(mesh)
+    found = denoise(mesh)
+    assert before.spread > 1.3 * level * truth.edge_lengths.mean()
+    assert found.warnings == ()
+    assert found.sigma / truth.edge_lengths.mean() == pytest.approx(level, rel=0.15)
+    assert rms(found.mesh, truth) < 0.35 * rms(mesh, truth)
+
+
+def test_a_clean_shape_with_creases_stays_as_it_is():
+    """The more of its vertices are far from creases, the more exactly."""
+    for name, largest in (("fine cube", 0.0), ("box", 0.004)):
+        truth = SHARP[name]
+        assert level_of(truth).has_outliers
+        assert level_of(truth).spread > 0.05 * truth.edge_lengths.mean()
+        found = denoise(truth)
+        assert found.warnings == ()
+        assert found.sigma <= largest * truth.edge_lengths.mean()
+        assert rms(found.mesh, truth) <= largest
+
+
+def test_a_level_that_is_said_is_taken_beside_creases_too():
+    truth = SHARP["cube"]
+    mesh = white(truth, 0.05)
+    found = denoise(mesh, noise=0.05 * truth.edge_lengths.mean())
+    assert found.warnings == ()
+    assert rms(found.mesh, truth) < 0.35 * rms(mesh, truth)
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+@pytest.mark.parametrize("kind", ["heavy tails", "two levels"])
+def test_noise_that_is_not_gaussian_is_said(name, kind):
+    truth = SMOOTH[name]
+    random = np.random.default_rng(5)
+    n = truth.n_vertices
+    noise = {
+        "heavy tails": lambda: random.standard_t(3, n) / 3**0.5,
+        "two levels": lambda: np.where(random.random(n) < 0.15, 2.0, 0.5) * random.normal(size=n),
+    }[kind]()
+    mesh = moved(truth, 0.2 * noise)
+    found = denoise(mesh)
+    assert found.noise.has_outliers
+    assert "has outliers" in found.warnings[0]
+    assert rms(found.mesh, truth) < 0.65 * rms(mesh, truth)
+
+
+def test_what_is_known_of_outliers():
+    torus = SMOOTH["torus"]
+    found = level_of(moved(torus, np.random.default_rng(0).random(torus.n_vertices) < 0.05))
+    assert found.has_outliers
+    told = found.explained()
+    assert not told.has_outliers
+    assert (told.kurtosis, told.spread, told.warnings) == (found.kurtosis, found.spread, ())
+    assert told.explained() == told
+
+
+class TestOverlooked:
+    """A spike that planes beyond a bend hold by chance is held as a crease is."""
+
+    @staticmethod
+    def spiked(truth, seed):
+        random = np.random.default_rng([seed, 9])
+        n = truth.n_vertices
+        return (random.random(n) < 0.1) * random.normal(size=n)
+
+    @pytest.mark.parametrize("seed", [0, 1])
+    def test_they_are_found_once_the_others_are_down(self, seed):
+        torus = SMOOTH["torus"]
+        heights = self.spiked(torus, seed)
+        mesh = moved(torus, heights)
+        found = find_spikes(mesh)
+        missed = heights[~found.found]
+        assert (np.abs(missed) > 0.2).sum() <= 3
+        assert rms(denoise(mesh).mesh, torus) < 0.06 * rms(mesh, torus)
+
+    @pytest.mark.parametrize("name", ["cube", "can", "box"])
+    def test_corners_and_creases_are_none(self, name):
+        truth = SHARP[name]
+        heights = self.spiked(truth, 4)
+        found = find_spikes(moved(truth, heights))
+        false = found.found & (heights == 0)
+        assert false.sum() <= 0.01 * truth.n_vertices
+        assert not false[np.bincount(truth.faces.ravel(), minlength=len(false)) == 3].any()
