@@ -48,6 +48,7 @@ from benchmarks.packages import package
 from benchmarks.smoothers import DEFAULT, peers
 
 LEVELS = (0.1, 0.2, 0.3)
+LITTLE = (0.02, 0.05)
 REPORT = Path(__file__).parents[1] / "BENCHMARKS-DENOISING.md"
 _LARGE, _VERY_LARGE = 15_000, 40_000  # vertices, from which there are two seeds, and one
 _SMALL = 15_000  # vertices, up to which odd noise is tried too
@@ -121,6 +122,24 @@ def of_odd(truth: Any, mesh: Any) -> Facts:
     }
 
 
+def of_little(truth: Any) -> Facts:
+    """Return what the blind choice does to the truth itself, and to it with little noise."""
+    denoise = package("beltrami").denoise
+    clean = denoise(truth)
+    facts: Facts = {
+        "clean": errors(truth, clean.mesh.vertices),
+        "said": [bool(clean.warnings)],
+        "levels": [],
+    }
+    for level in LITTLE:
+        mesh = noisy(truth, level, 0)
+        found = denoise(mesh)
+        before, after = (errors(truth, one.vertices)[1] for one in (mesh, found.mesh))
+        facts["said"].append(bool(found.warnings))
+        facts["levels"].append({"level": level, "noisy": before, "distance": after})
+    return facts
+
+
 def measured(
     name: str,
     meshes: Path,
@@ -130,8 +149,8 @@ def measured(
     *,
     more: bool = True,
     odd_kinds: Sequence[str] = tuple(ODD),
-) -> tuple[list[Case], list[OddCase]]:
-    """Measure one mesh at some levels, and, if it is small, with odd noise.
+) -> tuple[list[Case], list[OddCase], dict[str, Facts]]:
+    """Measure one mesh at some levels, with little noise, and, if it is small, with odd noise.
 
     Without ``more`` only what the folder has is told.
     """
@@ -145,7 +164,7 @@ def measured(
             kept(folder, f"{PAIR}-{one.__name__}", lambda one=one: one(truth, mesh))
             for one in (of_peers, of_ours)
         )
-        return [Case(name, 0.3, truth.n_vertices, (tuple(facts),))], []
+        return [Case(name, 0.3, truth.n_vertices, (tuple(facts),))], [], {}
     truth = truth_of(name, meshes)
     n = truth.n_vertices
     seeds = 1 if n > _VERY_LARGE else min(seeds, 2) if n > _LARGE else seeds
@@ -171,7 +190,16 @@ def measured(
         mesh = odd_noise(truth, kind, 0)
         facts = kept(folder, f"{name}-{kind}", lambda mesh=mesh: of_odd(truth, mesh))
         odd.append(OddCase(name, kind, facts))
-    return cases, odd
+    little: dict[str, Facts] = {}
+    names = [f"{name}-{level}-0-of_peers" for level in LITTLE]
+    if wanted(f"{name}-little", *names):
+        facts = kept(folder, f"{name}-little", lambda: of_little(truth))
+        peers = [
+            kept(folder, key, lambda level=level: of_peers(truth, noisy(truth, level, 0)))
+            for key, level in zip(names, LITTLE, strict=True)
+        ]
+        little[name] = {**facts, "peers": [one["distance"] for one in peers]}
+    return cases, odd, little
 
 
 def time_of(faces: int) -> str:
@@ -212,6 +240,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         asked.folder.mkdir(parents=True, exist_ok=True)
     cases: list[Case] = []
     odd: list[OddCase] = []
+    little: dict[str, Facts] = {}
     missing = []
     for name in asked.meshes or (PAIR, *TUNED, *HELD_OUT):
         if not is_there(name, meshes):
@@ -225,6 +254,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
             missing.append(name)
         cases += found[0]
         odd += found[1]
+        little |= found[2]
     further: list[Case] = []
     if asked.further:
         for name in (f"{one}.off" for one in FURTHER):
@@ -232,7 +262,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
                 missing.append(name)
                 continue
             print(name, flush=True)
-            further += measured(
+            found = measured(
                 name,
                 asked.further,
                 asked.folder,
@@ -240,8 +270,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
                 asked.levels,
                 more=not asked.no_more,
                 odd_kinds=(),
-            )[0]
-    asked.output.write_text(written(cases, odd, missing, further))
+            )
+            further += found[0]
+            little |= found[2]
+    asked.output.write_text(written(cases, odd, missing, further, little))
     print(f"wrote {asked.output}")
 
 

@@ -20,6 +20,15 @@ from benchmarks.noisy_meshes import (
 import beltrami as bt
 from benchmarks import denoising
 
+LITTLE = {
+    "clean": [1.0, 0.25],
+    "said": [True, False, False],
+    "levels": [
+        {"level": 0.02, "noisy": 1.0, "distance": 0.75},
+        {"level": 0.05, "noisy": 2.0, "distance": 2.4},
+    ],
+}
+
 
 def facts(ours, peer, own=(1.0, 1.0), warned=False):
     theirs = {"noisy": (9.0, 0.3), "angle": [peer[0], "a"], "distance": [peer[1], "b"],
@@ -68,17 +77,30 @@ def test_what_is_kept_is_not_measured_again(tmp_path, monkeypatch):
     denoising.of_ours.__name__ = "of_ours"
     monkeypatch.setattr(denoising, "of_odd", lambda truth, mesh: {
         "noisy": 1.0, "distance": 0.2, "linear": 0.1, "warned": True})  # fmt: skip
-    cases, odd = measured("ellipsoid", tmp_path, tmp_path, 2)
+    monkeypatch.setattr(denoising, "of_little", lambda truth: LITTLE)
+    cases, odd, little = measured("ellipsoid", tmp_path, tmp_path, 2)
+    assert little == {"ellipsoid": {**LITTLE, "peers": [[2, "b"], [2, "b"]]}}
     assert [len(case.runs) for case in cases] == [2, 2, 2]
     assert [one.kind for one in odd] == list(ODD)
-    assert len(list(tmp_path.glob("ellipsoid-*.json"))) == 3 * 2 * 2 + 3
+    assert len(list(tmp_path.glob("ellipsoid-*.json"))) == 3 * 2 * 2 + 3 + 3
     target = tmp_path / "report.md"
     main(["ellipsoid", "no-such-mesh", "--folder", str(tmp_path), "--output", str(target)])
     text = target.read_text()
     assert "Not measured: no-such-mesh." in text
     assert "| ellipsoid | strong |" in text
     assert text.count("| ellipsoid 0.") == 3
-    assert text == written(*measured("ellipsoid", tmp_path, tmp_path, 3), ["no-such-mesh"])
+    cases, odd, little = measured("ellipsoid", tmp_path, tmp_path, 3)
+    assert text == written(cases, odd, ["no-such-mesh"], little=little)
+
+
+def test_little_noise_is_a_section_of_its_own():
+    """Of two cases one leaves more than there was, and both more than the best, once nothing."""
+    little = {"one": {**LITTLE, "peers": [[0.5, "p"], [4.0, "q"]]}}
+    text = written([], [], [], little=little)
+    assert "| one | 0.2500 | 0.75 | 1.50 p | 1.20 | 1.20 nothing | 1 |" in text
+    assert "median 0.97 of the noise, 1.35 of the best peer" in text
+    assert "more than the noise: 1 of 2; more than the best peer: 2 of 2." in text
+    assert "Little" not in written([], [], [])
 
 
 def test_further_meshes_are_a_section_of_their_own(tmp_path, monkeypatch):
@@ -86,12 +108,14 @@ def test_further_meshes_are_a_section_of_their_own(tmp_path, monkeypatch):
     denoising.of_peers.__name__ = "of_peers"
     monkeypatch.setattr(denoising, "of_ours", lambda truth, mesh: facts((2, 1.9), (4, 2))[1])
     denoising.of_ours.__name__ = "of_ours"
+    monkeypatch.setattr(denoising, "of_little", lambda truth: LITTLE)
     bt.write_mesh(tmp_path / f"{FURTHER[-1]}.off", bt.shapes.icosphere(2))
     target = tmp_path / "report.md"
     folder = str(tmp_path)
     main(["no-such-mesh", "--further", folder, "--folder", folder, "--output", str(target)])
     text = target.read_text()
     assert text.count(f"| {FURTHER[-1]}.off 0.") == 3
+    assert f"| {FURTHER[-1]}.off | 0.2500 |" in text
     assert f"{FURTHER[0]}.off" in text.split("Not measured: ")[1].split("\n")[0]
     section = text.split("## Further meshes")[1].split("## Noise of other")[0]
     assert "worst 0.950 (<= 0.80: **missed**)" in section
