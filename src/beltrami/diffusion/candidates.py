@@ -14,6 +14,7 @@ from beltrami.diffusion.linear_filters import (
     Linear,
     equal_rows,
     low_passed,
+    low_passes,
     rows_along_borders,
     rows_by_length,
     rows_by_normals,
@@ -127,17 +128,26 @@ def filtered(
     """
     from_here = mesh if start is None else mesh.with_vertices(start)
     rounds = _all_rounds(from_here, bench, [f for f in filters if isinstance(f, OfNormals)])
-    rows = _all_rows(from_here, bench, [f for f in filters if isinstance(f, Linear)])
+    smooth = _all_low_passes(from_here, bench, [f for f in filters if isinstance(f, Linear)])
     found = []
     for one in filters:
         if isinstance(one, Linear):
-            moved = low_passed(rows[one.kind], from_here.vertices, one)
-            found.append(along_normals(mesh, moved))
+            found.append(along_normals(mesh, smooth[one]))
         elif isinstance(one, OfVariation):
             found.append(_of_variation(from_here, one.fidelity))
         else:
             moved = rounds[one.guided, one.contrast, one.rounds]
             found.append(along_normals(mesh, moved) if one.projected else moved)
+    return found
+
+
+def _all_low_passes(mesh: Mesh, bench: Bench, filters: list[Linear]) -> dict[Linear, Floats]:
+    """Run all those of one kind at once."""
+    found: dict[Linear, Floats] = {}
+    for kind, rows in _all_rows(mesh, bench, filters).items():
+        some = [one for one in filters if one.kind == kind]
+        if some:
+            found.update(zip(some, low_passes(rows, mesh.vertices, some), strict=True))
     return found
 
 
