@@ -21,7 +21,7 @@ from beltrami.diffusion.choice import (
 from beltrami.diffusion.colour import NoiseColour, noise_colour, with_colour
 from beltrami.diffusion.level import level_beside
 from beltrami.diffusion.linear_filters import LINEAR, Linear, equal_rows
-from beltrami.diffusion.noise import SPIKED, STRONG, NoiseLevel, noise_level
+from beltrami.diffusion.noise import SPIKED, STRONG, Differences, NoiseLevel, noise_level
 from beltrami.diffusion.patches import Sample, sample_of, sizes_of_components
 from beltrami.diffusion.spikes import Spikes, find_spikes
 from beltrami.mesh.mesh import Mesh
@@ -106,12 +106,14 @@ def _level(mesh: Mesh, normals: Floats, spikes: Booleans | None = None) -> Noise
     What was put in their place has no noise of its own, so it gets some as strong as the others'.
     """
     A, x, edge = mesh.topology.adjacency, mesh.vertices, float(mesh.edge_lengths.mean())
-    found = noise_level(A, x, edge, normals)
+    differences = Differences.of(A)
+    found = noise_level(A, x, edge, normals, differences)
     if spikes is None:
         return found
     white = np.random.default_rng(_SEED).standard_normal(len(x)) * spikes
     for _ in range(_TIMES):
-        found = noise_level(A, x + found.spread * white[:, None] * normals, edge, normals)
+        noisy = x + found.spread * white[:, None] * normals
+        found = noise_level(A, noisy, edge, normals, differences)
     return replace(found, sigma=found.spread)
 
 
