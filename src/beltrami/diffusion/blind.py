@@ -79,14 +79,13 @@ def blind_choice(mesh: Mesh, noise: float | None, size: int, *, linear: bool = F
     if noise is None and not linear and found.kurtosis > SPIKED and largest >= _SMALL:
         spikes = find_spikes(mesh)
         if spikes is not None:
-            return _without(spikes, found, size, largest)
+            return _without(spikes, bench.moved(spikes.mesh), found, size, largest)
     told, choice, bench = _chosen(mesh, bench, found, noise, size, largest, linear=linear)
     return Blind(told, choice, bench, mesh, none, choice.risk)
 
 
-def _without(spikes: Spikes, found: NoiseLevel, size: int, largest: int) -> Blind:
+def _without(spikes: Spikes, bench: Bench, found: NoiseLevel, size: int, largest: int) -> Blind:
     """Choose for the mesh without them; what is left of its kurtosis is small beside them."""
-    bench = Bench.of(spikes.mesh)
     rest = _level(spikes.mesh, bench.normals, spikes.found)
     told, choice, bench = _chosen(
         spikes.mesh, bench, rest, None, size, largest, linear=False, spikes=spikes.found
@@ -132,7 +131,7 @@ def _chosen(
     height = _height(mesh)
     beside = found.sigma > _STRONG_BESIDE * height
     if found.relative > STRONG or beside:
-        bench, looks = Bench.of(mesh, EVENING_IF_STRONG), _LOOKS_IF_STRONG
+        bench, looks = bench.moved(mesh, EVENING_IF_STRONG), _LOOKS_IF_STRONG
         found = _level(mesh, bench.normals, spikes)
     if beside and not found.relative > STRONG:
         text = f"the noise is strong beside the faces, whose median height is {height / edge:.2f}"
@@ -176,8 +175,8 @@ def _chosen(
 
 def _height(mesh: Mesh) -> float:
     """Return the median of the least heights of the faces; infinity, if none has an edge."""
-    x = mesh.vertices[mesh.faces]
-    longest = np.linalg.norm(x - np.roll(x, 1, axis=1), axis=2).max(axis=1)
+    i, j, k = mesh.edge_lengths[mesh.topology.face_edges].T
+    longest = np.maximum(np.maximum(i, j), k)
     kept = longest > 0
     if not kept.any():
         return np.inf
