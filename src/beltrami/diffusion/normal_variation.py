@@ -49,9 +49,7 @@ def evened_normals(mesh: Mesh, fidelity: float, rounds: int) -> tuple[Floats, Bo
     twins = mesh.topology.twins
     sides = np.flatnonzero(twins.ravel() > np.arange(twins.size))
     left, right = sides // 3, twins.ravel()[sides] // 3
-    corners = mesh.vertices[mesh.faces]
-    opposite = corners[:, [2, 0, 1]] - corners[:, [1, 2, 0]]
-    lengths = np.linalg.norm(opposite.reshape(-1, corners.shape[2])[sides], axis=1)
+    lengths = mesh.edge_lengths[mesh.topology.face_edges.ravel()[sides]]
     areas = mesh.face_areas
     if not len(sides) or not lengths.any():
         return np.array(mesh.face_normals), np.zeros(mesh.n_faces, np.bool_)
