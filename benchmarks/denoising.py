@@ -2,7 +2,7 @@
 
 python -m benchmarks.denoising [mesh ...] [--seeds 3] [--folder kept]  BENCHMARKS-DENOISING.md
 python -m benchmarks.denoising --further data/meshes                    CGAL's meshes too
-python -m benchmarks.denoising --faces 1000000                          one large mesh, printed
+python -m benchmarks.denoising --faces 1000000 [--spikes 0.02]          one large mesh, printed
 
 Noise is white, along the normals, of 0.1, 0.2 and 0.3 mean edge lengths; "Fandisk0.3" is a noisy
 mesh with its truth, as published. Errors are the mean angle of the normals of the faces, in
@@ -202,13 +202,17 @@ def measured(
     return cases, odd, little
 
 
-def time_of(faces: int) -> str:
-    """Tell the time, the memory and the errors of a shape of about so many faces."""
+def time_of(faces: int, spikes: float = 0.0) -> str:
+    """Tell the time, the memory and the errors of a shape of about so many faces.
+
+    So many of the vertices are off by a normal variable of one mean edge, upon the white noise.
+    """
     bt = package("beltrami")
     arrays = subdivided(*subdivided(*plain(bt.shapes.blob(faces // 32))))
     truth = bt.Mesh(*arrays)
-    mesh = noisy(truth, 0.2, 0)
-    bt.denoise(noisy(bt.shapes.icosphere(3), 0.2, 0))  # compiles
+    mesh = spiked(noisy(truth, 0.2, 0), truth, spikes)
+    small = bt.shapes.icosphere(4)
+    bt.denoise(spiked(noisy(small, 0.2, 0), small, 0.05 if spikes else 0.0))  # compiles
     cpu, wall = time.process_time(), time.perf_counter()
     found = bt.denoise(mesh)
     cpu, wall = time.process_time() - cpu, time.perf_counter() - wall
@@ -216,8 +220,16 @@ def time_of(faces: int) -> str:
     angle, distance = errors(truth, found.mesh.vertices)
     return (
         f"{truth.n_faces:,} faces: {cpu:.1f} s of one core, {wall:.1f} s, peak {peak:.2f} GiB; "
-        f"{angle:.2f}°, {distance:.3f} mean edges"
+        f"{angle:.2f}°, {distance:.3f} mean edges, {len(found.spikes):,} spikes"
     )
+
+
+def spiked(mesh: Any, truth: Any, share: float) -> Any:
+    """Move a share of the vertices along the true normals by a normal variable of one mean edge."""
+    random = np.random.default_rng(1)
+    hit = random.random(mesh.n_vertices) < share
+    away = truth.edge_lengths.mean() * hit * random.standard_normal(mesh.n_vertices)
+    return mesh.with_vertices(mesh.vertices + away[:, None] * truth.vertex_normals)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -231,9 +243,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--no-more", action="store_true", help="tell what the folder has")
     parser.add_argument("--output", type=Path, default=REPORT)
     parser.add_argument("--faces", type=int, help="time a mesh of so many, and nothing else")
+    parser.add_argument("--spikes", type=float, default=0.0, help="share of its vertices that are")
     asked = parser.parse_args(arguments)
     if asked.faces:
-        print(time_of(asked.faces))
+        print(time_of(asked.faces, asked.spikes))
         return
     meshes = Path(os.environ.get(FOLDER_VARIABLE, ""))
     if asked.folder:

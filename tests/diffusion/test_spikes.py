@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from beltrami.diffusion.blind import blind_choice
-from beltrami.diffusion.spikes import _limit, _Planes, find_spikes
+from beltrami.diffusion.planes import PlanesAround, planes_of
+from beltrami.diffusion.spikes import _limit, find_spikes
 from beltrami.io.registry import read_mesh
 from beltrami.mesh import shapes
 from beltrami.mesh.mesh import Mesh
@@ -65,7 +66,9 @@ def rms(mesh, truth):
 class TestPlanes:
     def test_against_the_definition(self):
         mesh, _, _ = spiked(shapes.blob(500), 0.1, 0.1)
-        off, held = _Planes.of(mesh).compared(mesh, mesh.vertices)
+        around, planes = PlanesAround.of(mesh.topology), planes_of(mesh)
+        off = around.off(planes, mesh, mesh.vertices)
+        held = around.shares(planes, mesh.vertices, 0.3 * np.abs(off))
         t, x, faces = mesh.topology, mesh.vertices, mesh.faces
 
         def distances(i):
@@ -100,9 +103,9 @@ class TestPlanes:
                 ]
             ),
         )
-        planes = _Planes.of(fan)
-        assert (np.diff(planes.indptr)[-2:] == 0).all()
-        assert len(planes.faces) < 10 * n
+        around = PlanesAround.of(fan.topology)
+        assert (np.diff(around.indptr)[-2:] == 0).all()
+        assert len(around.faces) < 10 * n
         assert find_spikes(fan) is None
 
 

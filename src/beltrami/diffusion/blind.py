@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from beltrami._arrays import Booleans, Floats, Integers
-from beltrami.diffusion.candidates import EVENING_IF_STRONG, Bench, Filter
+from beltrami.diffusion.candidates import EVENING, EVENING_IF_STRONG, Bench, Filter
 from beltrami.diffusion.choice import (
     ALL,
     CAUTION,
@@ -21,7 +21,7 @@ from beltrami.diffusion.choice import (
 from beltrami.diffusion.colour import NoiseColour, noise_colour, with_colour
 from beltrami.diffusion.level import level_beside, rough_part
 from beltrami.diffusion.linear_filters import LINEAR, equal_rows
-from beltrami.diffusion.noise import STRONG, NoiseLevel, noise_level
+from beltrami.diffusion.noise import STRONG, Differences, NoiseLevel, noise_level
 from beltrami.diffusion.patches import Sample, sample_of, sizes_of_components
 from beltrami.diffusion.spikes import Spikes, find_spikes
 from beltrami.mesh.mesh import Mesh
@@ -80,19 +80,20 @@ def blind_choice(mesh: Mesh, noise: float | None, size: int, *, linear: bool = F
     if noise is None and not linear and seen.found.has_outliers and seen.largest >= _SMALL:
         spikes = find_spikes(mesh)
         if spikes is not None:
-            return _without(spikes, seen.found, size)
+            return _without(spikes, seen, size)
     choice = seen.choice()
     return Blind(seen.found, choice, seen.bench, mesh, none, choice.risk)
 
 
-def _without(spikes: Spikes, found: NoiseLevel, size: int) -> Blind:
+def _without(spikes: Spikes, before: _Seen, size: int) -> Blind:
     """Choose for the mesh without them; what is left of its kurtosis is small beside them."""
-    seen = _Seen.of(spikes.mesh, None, size, linear=False, spikes=spikes.found)
+    bench = before.bench.moved(spikes.mesh, EVENING)
+    seen = _Seen.of(spikes.mesh, None, size, linear=False, bench=bench, spikes=spikes.found)
     choice = seen.choice()
     count, share = int(spikes.found.sum()), float(spikes.found.mean())
     text = f"{count} vertices were taken for spikes, and put where their neighbours say"
     others = seen.found.explained().warnings
-    noise = replace(found, warnings=(*found.warnings, text, *others))
+    noise = replace(before.found, warnings=(*before.found.warnings, text, *others))
     of_filling = max(spikes.error**2 - choice.sigma**2, choice.risk)
     risk = (1 - share) * choice.risk + share * of_filling
     return Blind(noise, choice, seen.bench, spikes.mesh, np.flatnonzero(spikes.found), risk)
@@ -141,16 +142,17 @@ class _Seen:
         size: int,
         *,
         linear: bool,
+        bench: Bench | None = None,
         spikes: Booleans | None = None,
     ) -> _Seen:
-        """Measure the noise."""
-        bench, looks = Bench.of(mesh), _LOOKS
+        """Measure the noise; its bench may be known."""
+        bench, looks = bench or Bench.of(mesh), _LOOKS
         found = _level(mesh, bench.normals, spikes)
         largest = int(sizes_of_components(mesh)[1].max())
         edge, height = float(mesh.edge_lengths.mean()), _height(mesh)
         beside = found.sigma > _STRONG_BESIDE * height
         if found.relative > STRONG or beside:
-            bench, looks = Bench.of(mesh, EVENING_IF_STRONG), _LOOKS_IF_STRONG
+            bench, looks = bench.moved(mesh, EVENING_IF_STRONG), _LOOKS_IF_STRONG
             found = _level(mesh, bench.normals, spikes)
         if beside and not found.relative > STRONG:
             told = (
@@ -256,11 +258,13 @@ class _Seen:
 def _level(mesh: Mesh, normals: Floats, spikes: Booleans | None = None) -> NoiseLevel:
     """Measure it; where there were spikes, by the root mean square: some small ones are left."""
     A, x, edge = mesh.topology.adjacency, mesh.vertices, float(mesh.edge_lengths.mean())
-    found = noise_level(A, x, edge, normals)
+    differences = Differences.of(A)
+    found = noise_level(A, x, edge, normals, differences)
     if spikes is None:
         return found
     for white in _whites(spikes):
-        found = noise_level(A, x + found.spread * white[:, None] * normals, edge, normals)
+        there = x + found.spread * white[:, None] * normals
+        found = noise_level(A, there, edge, normals, differences)
     return replace(found, sigma=found.spread)
 
 
@@ -275,8 +279,8 @@ def _whites(spikes: Booleans) -> list[Floats]:
 
 def _height(mesh: Mesh) -> float:
     """Return the median of the least heights of the faces; infinity, if none has an edge."""
-    x = mesh.vertices[mesh.faces]
-    longest = np.linalg.norm(x - np.roll(x, 1, axis=1), axis=2).max(axis=1)
+    i, j, k = mesh.edge_lengths[mesh.topology.face_edges].T
+    longest = np.maximum(np.maximum(i, j), k)
     kept = longest > 0
     if not kept.any():
         return np.inf

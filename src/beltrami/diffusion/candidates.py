@@ -14,6 +14,7 @@ from beltrami.diffusion.linear_filters import (
     Linear,
     equal_rows,
     low_passed,
+    low_passes,
     rows_along_borders,
     rows_by_length,
     rows_by_normals,
@@ -77,34 +78,38 @@ class Bench:
 
     Attributes
     ----------
-    rows, rows_by_length
-        Of W̃, with equal weights and with those by the lengths of the evened mesh.
+    rows
+        Of W̃ with equal weights.
     rings
         Of the faces.
-    normals
-        (n, 3), of the vertices of the evened mesh: directions of the noise.
+    evened
+        The mesh after a low pass: by its lengths and normals the other rows are weighed.
     evening
-        The low pass that evens it.
+        That low pass.
     """
 
     rows: LocalRows
-    rows_by_length: LocalRows
     rings: FaceRings
-    normals: Floats
+    evened: Mesh
     evening: Linear
 
     @classmethod
     def of(cls, mesh: Mesh, evening: Linear = EVENING) -> Bench:
         """Prepare it; vertices of no face are left alone."""
-        rows, rings = equal_rows(mesh), face_rings(mesh.topology)
+        rows = equal_rows(mesh)
         evened = mesh.with_vertices(low_passed(rows, mesh.vertices, evening))
-        return cls(rows, rows_by_length(evened), rings, evened.vertex_normals, evening)
+        return cls(rows, face_rings(mesh.topology), evened, evening)
 
-    def moved(self, mesh: Mesh) -> Bench:
-        """Return that of the same mesh at other positions."""
-        evened = mesh.with_vertices(low_passed(self.rows, mesh.vertices, self.evening))
-        lengths, normals = rows_by_length(evened), evened.vertex_normals
-        return replace(self, rows_by_length=lengths, normals=normals)
+    @property
+    def normals(self) -> Floats:
+        """(n, 3), of the vertices of the evened mesh: directions of the noise."""
+        return self.evened.vertex_normals
+
+    def moved(self, mesh: Mesh, evening: Linear | None = None) -> Bench:
+        """Return that of the same mesh at other positions, or after another low pass."""
+        evening = evening or self.evening
+        evened = mesh.with_vertices(low_passed(self.rows, mesh.vertices, evening))
+        return replace(self, evened=evened, evening=evening)
 
 
 def along_normals(mesh: Mesh, moved: Floats) -> Floats:
@@ -123,16 +128,15 @@ def filtered(
     """Return the positions (n, 3) by each of the filters.
 
     ``start`` are positions to filter the normals of, instead of those of the mesh; displacements
-    are projected as seen from the mesh.
+    are projected as seen from the mesh. Low passes look at the evened mesh of the bench.
     """
     from_here = mesh if start is None else mesh.with_vertices(start)
     rounds = _all_rounds(from_here, bench, [f for f in filters if isinstance(f, OfNormals)])
-    rows = _all_rows(from_here, bench, [f for f in filters if isinstance(f, Linear)])
+    smooth = _all_low_passes(from_here, bench, [f for f in filters if isinstance(f, Linear)])
     found = []
     for one in filters:
         if isinstance(one, Linear):
-            moved = low_passed(rows[one.kind], from_here.vertices, one)
-            found.append(along_normals(mesh, moved))
+            found.append(along_normals(mesh, smooth[one]))
         elif isinstance(one, OfVariation):
             found.append(_of_variation(from_here, one.fidelity))
         else:
@@ -141,17 +145,21 @@ def filtered(
     return found
 
 
-def _all_rows(mesh: Mesh, bench: Bench, filters: list[Linear]) -> dict[Linear, LocalRows]:
-    """Return W̃ of each kind, by the normals and lengths of the evened mesh."""
-    found = {_EQUAL: bench.rows, _BY_LENGTH: bench.rows_by_length}
-    wanted = {one.kind for one in filters} - set(found)
-    if wanted:
-        evened = mesh.with_vertices(low_passed(bench.rows, mesh.vertices, bench.evening))
-    for kind in wanted:
-        if kind.in_parts:
-            found[kind] = rows_by_normals(evened, kind.contrast)
+def _all_low_passes(mesh: Mesh, bench: Bench, filters: list[Linear]) -> dict[Linear, Floats]:
+    """Run those of one kind together."""
+    found: dict[Linear, Floats] = {}
+    evened = bench.evened
+    for kind in dict.fromkeys(one.kind for one in filters):
+        if kind == _EQUAL:
+            weighted = bench.rows
+        elif kind == _BY_LENGTH:
+            weighted = rows_by_length(evened)
+        elif kind.in_parts:
+            weighted = rows_by_normals(evened, kind.contrast)
         else:
-            found[kind] = rows_along_borders(evened, kind.along, by_length=kind.by_length)
+            weighted = rows_along_borders(evened, kind.along, by_length=kind.by_length)
+        some = [one for one in filters if one.kind == kind]
+        found.update(zip(some, low_passes(weighted, mesh.vertices, some), strict=True))
     return found
 
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.polynomial import Chebyshev
 
 from beltrami._arrays import Booleans, Floats
+from beltrami.diffusion.averaging_series import filter_rows, filter_rows_by
 from beltrami.diffusion.noise import NoiseLevel
-from beltrami.diffusion.windowed_sinc import filter_rows
 from beltrami.solvers.locality import LocalRows
 
 # gains k^a (2 - k)^b, largest at 2a/(a + b): polynomials of W̃, so that creases stay where they are
@@ -119,10 +119,10 @@ def noise_colour(rows: LocalRows, x: Floats, normals: Floats, core: Booleans) ->
     """
     white = np.random.default_rng(_SEED).standard_normal((len(x), _WHITE))
     levels, uneven, kurtosis = [], [], 3.0
-    for i in range(len(_EXPONENTS)):
-        series = np.array(_series(i))
-        found = np.einsum("ij,ij->i", filter_rows(rows, x, series), normals)
-        alike = filter_rows(rows, white, series)
+    series = [np.array(_series(i)) for i in range(len(_EXPONENTS))]
+    both = (filter_rows_by(rows, values, series) for values in (x, white))
+    for i, (moved, alike) in enumerate(zip(*both, strict=True)):
+        found = np.einsum("ij,ij->i", moved, normals)
         gain = np.maximum(_around(rows, (alike**2).mean(axis=1)), np.finfo(float).tiny)
         (quiet, rough), (white_quiet, white_rough) = (
             np.sqrt(np.quantile(_around(rows, _cut(f**2 / gain))[core], (_QUIET, _ROUGH)))

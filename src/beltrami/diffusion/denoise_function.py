@@ -13,7 +13,7 @@ from scipy.sparse import csr_array
 from beltrami._arrays import Floats, as_function
 from beltrami._kinds import checked
 from beltrami._progress import Progress
-from beltrami.diffusion.noise import NoiseLevel, noise_level
+from beltrami.diffusion.noise import Differences, NoiseLevel, noise_level
 from beltrami.diffusion.risk import best_mixture, mixture_risk
 from beltrami.errors import BeltramiError, MeshError
 from beltrami.mesh.edge_matrix import symmetric_matrix
@@ -124,7 +124,8 @@ def denoise_function(
     columns = values.reshape(laplacian.n, -1)
     ones = np.ones(len(laplacian.edges))
     adjacency = symmetric_matrix(laplacian.edges, ones, laplacian.n)
-    found = tuple(noise_level(adjacency, column) for column in columns.T)
+    differences = Differences.of(adjacency)
+    found = tuple(noise_level(adjacency, f, differences=differences) for f in columns.T)
     levels = [
         noise if noise is not None else level.spread if level.warnings else level.sigma
         for level in found

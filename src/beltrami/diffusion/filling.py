@@ -9,9 +9,9 @@ from beltrami._arrays import Booleans, Floats
 from beltrami.diffusion.candidates import EVENING
 from beltrami.diffusion.face_rings import face_rings
 from beltrami.diffusion.linear_filters import equal_rows, low_passed
-from beltrami.diffusion.noise import averaging_matrix
 from beltrami.diffusion.normal_filters import filtered_normals
 from beltrami.diffusion.vertex_update import fit_to_normals
+from beltrami.mesh.geometry import vertex_normals
 from beltrami.mesh.mesh import Mesh
 from beltrami.solvers.conjugate_gradients import conjugate_gradients
 
@@ -56,22 +56,24 @@ def brought_down(mesh: Mesh, unknown: Booleans, moved: Floats, surface: Floats) 
     A vertex far beside its place may fold the faces around it: their normal is far from the
     displacement then. Known vertices stay where the mesh has them.
     """
-    normals = mesh.with_vertices(surface).vertex_normals
-    away = moved - mesh.vertices
+    i, j, k = mesh.faces.T
+    around = mesh.faces[unknown[i] | unknown[j] | unknown[k]]
+    normals = vertex_normals(surface, around, "angle")[unknown]
+    start, end = mesh.vertices[unknown], moved[unknown]
+    away = end - start
     way = np.einsum("ij,ij->i", away, normals)
     far = np.linalg.norm(away, axis=1)
     straight = (np.abs(way) > _STRAIGHT * far) | (far < _SMALL * float(mesh.edge_lengths.mean()))
-    x = np.where(straight[:, None], mesh.vertices + way[:, None] * normals, moved)
-    return np.where(unknown[:, None], x, mesh.vertices)
+    x = np.array(mesh.vertices)
+    x[unknown] = np.where(straight[:, None], start + way[:, None] * normals, end)
+    return x
 
 
 def _smoothest(mesh: Mesh, unknown: Booleans) -> Floats:
     k = np.flatnonzero(unknown)
     moved = np.array(mesh.vertices)
     if len(k):
-        A = mesh.topology.adjacency
-        K = csr_array(eye_array(mesh.n_vertices, format="csr") - averaging_matrix(A))
-        K = csr_array(K[np.diff(A.indptr) <= _MANY])
+        K = _differences(mesh.topology.adjacency, unknown)
         part = csc_array(K[:, k])
         system = csr_array(part.T @ part + _RIDGE * eye_array(len(k)))
         force = -(part.T @ (K @ moved))
@@ -79,6 +81,17 @@ def _smoothest(mesh: Mesh, unknown: Booleans) -> Floats:
             system, force, tolerance=_TOLERANCE, kernel=None
         ).solution  # differences, so that the place of the mesh does not matter
     return moved
+
+
+def _differences(adjacency: csr_array, unknown: Booleans) -> csr_array:
+    """Return those rows of Id - W̃ that see an unknown vertex, but for those of many neighbours."""
+    degrees = np.diff(adjacency.indptr)
+    seen = unknown | (adjacency @ unknown > 0)
+    rows = np.flatnonzero(seen & (degrees > 0) & (degrees <= _MANY))
+    near, size = adjacency[rows], (len(rows), len(degrees))
+    shares = np.repeat(1 / degrees[rows], degrees[rows])
+    here = csr_array((np.ones(len(rows)), rows, np.arange(len(rows) + 1)), shape=size)
+    return csr_array(here - csr_array((shares, near.indices, near.indptr), shape=size))
 
 
 def error_of_filling(mesh: Mesh, unknown: Booleans, way: str) -> float:

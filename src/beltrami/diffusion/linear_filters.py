@@ -12,8 +12,8 @@ from numpy.polynomial import Chebyshev
 from scipy.sparse import csr_array
 
 from beltrami._arrays import Floats
+from beltrami.diffusion.averaging_series import filter_rows_by
 from beltrami.diffusion.smoothing import shares_of
-from beltrami.diffusion.windowed_sinc import filter_rows
 from beltrami.mesh.edge_matrix import symmetric_matrix
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.areas import diagonal_matrix
@@ -89,7 +89,12 @@ def low_passed(rows: LocalRows, x: Floats, one: Linear) -> Floats:
 
     Cost: O(degree n), degree about 25 / √cut.
     """
-    return filter_rows(rows, x, np.array(_series(one)))
+    return low_passes(rows, x, [one])[0]
+
+
+def low_passes(rows: LocalRows, x: Floats, some: Sequence[Linear]) -> list[Floats]:
+    """Filter by each of some filters of one kind: they share the products with W̃."""
+    return filter_rows_by(rows, x, [np.array(_series(one)) for one in some])
 
 
 @cache

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from scipy.sparse import csr_array, eye_array
 
 from beltrami._arrays import Floats
+from beltrami.diffusion.power_norms import power_norms
 from beltrami.operators.areas import diagonal_matrix
 
 ORDERS = (1, 2, 3)
@@ -61,11 +63,28 @@ class NoiseLevel:
         return replace(self, warnings=left)
 
 
+class Differences(NamedTuple):
+    """Id - W̃, and the norms of the rows of its powers, (3, n): one where there is no neighbour."""
+
+    matrix: csr_array
+    norms: Floats
+
+    @classmethod
+    def of(cls, adjacency: csr_array) -> Differences:
+        """Make them, for all that is measured on one topology."""
+        identity = eye_array(adjacency.shape[0], format="csr")
+        matrix = csr_array(identity - averaging_matrix(adjacency))
+        norms = power_norms(matrix, len(ORDERS))
+        norms[:, np.diff(adjacency.indptr) == 0] = 1
+        return cls(matrix, norms)
+
+
 def noise_level(
     adjacency: csr_array,
     f: Floats,
     edge_length: float | None = None,
     directions: Floats | None = None,
+    differences: Differences | None = None,
 ) -> NoiseLevel:
     r"""Estimate the level of white noise on f: median absolute deviation of its rough part.
 
@@ -82,27 +101,23 @@ def noise_level(
         differences.
     edge_length
         Mean length of the edges, if f are positions.
+    differences
+        Those of the adjacency, if they are known.
 
     Notes
     -----
     The correlation that white noise has after the differences is measured on white noise, from a
     fixed seed. Cost: O(n) with some hundred operations for each vertex.
     """
-    degrees = np.diff(adjacency.indptr)
-    inner = degrees > 0
-    n = len(f)
-    K = csr_array(eye_array(n, format="csr") - averaging_matrix(adjacency))
-    R, levels = K, []
-    standard = {}
-    for order in ORDERS:
-        R = R if order == 1 else csr_array(R @ K)
-        rough = R @ f if directions is None else np.einsum("ij,ij->i", R @ f, directions)
-        norms = np.sqrt(np.asarray(R.multiply(R).sum(axis=1)))
-        norms[~inner] = 1
-        standard[order] = rough / norms
+    K, norms = differences or Differences.of(adjacency)
+    inner = np.diff(adjacency.indptr) > 0
+    rough, levels, standard = f, [], {}
+    for order, norm in zip(ORDERS, norms, strict=True):
+        rough = K @ rough
+        along = rough if directions is None else np.einsum("ij,ij->i", rough, directions)
+        standard[order] = along / norm
         levels.append(median_level(standard[order][inner]))
-        if order == 2:
-            white = R @ np.random.default_rng(0).standard_normal(n) / norms
+    white = K @ (K @ np.random.default_rng(0).standard_normal(len(f))) / norms[1]
     second = standard[2][inner]
     square = float(np.mean(second**2))
     kurtosis = float(np.mean((second / np.sqrt(square)) ** 4)) if square > 0 else 3.0

@@ -38,14 +38,14 @@ def filtered_normals(
     sigma = _mean_distance(mesh.topology.twins, centres) * (2 if guided else 1)
     starts, later = np.empty(len(normals) + 1, np.int64), np.empty(len(rings.indices), np.int32)
     later = unsigned(later[: _later(*rings, starts, later)].copy())
-    near = np.empty(len(later))
+    near, weights = np.empty(len(later)), np.empty(int(np.diff(starts).max(initial=0)))
     _weigh(starts, later, centres, -0.5 / sigma**2 if sigma > 0 else 0.0, near)
     state = np.empty((len(normals), 9))
     while True:
         guides = guide_normals(mesh.topology, rings, normals, areas) if guided else normals
         _lay_out(guides, areas, normals, state)
         filtered = np.empty_like(normals)
-        _filter(starts, later, near, -1 / contrast**2, state, normals, filtered)
+        _filter(unsigned(starts), later, near, -1 / contrast**2, state, normals, weights, filtered)
         normals = filtered
         yield normals
 
@@ -104,21 +104,35 @@ def _lay_out(guides: Any, areas: Any, normals: Any, state: Any) -> None:
 
 @kernel
 def _filter(
-    starts: Any, later: Any, near: Any, factor: float, state: Any, normals: Any, filtered: Any
+    starts: Any,
+    later: Any,
+    near: Any,
+    factor: float,
+    state: Any,
+    normals: Any,
+    weights: Any,
+    filtered: Any,
 ) -> None:
     """Write one round; |g_i - g_j|² / 2 is 1 - g_i g_j, and ``factor`` is -1/σ².
 
     A row of ``state`` has g, A n, and the sum over the faces before; what lies together is
-    loaded together.
+    loaded together. ``weights`` has room for the pairs of a face: powers are computed side by side.
     """
-    for i in range(normals.shape[0]):
+    one = np.uint64(1)
+    for i in range(np.uint64(normals.shape[0])):
         g0, g1, g2 = state[i, 0], state[i, 1], state[i, 2]
         n0, n1, n2 = state[i, 3], state[i, 4], state[i, 5]
         a, b, c = state[i, 6] + n0, state[i, 7] + n1, state[i, 8] + n2
-        for q in range(starts[i], starts[i + 1]):
-            j = later[q]
+        begin = starts[i]
+        count = starts[i + one] - begin
+        for q in range(count):
+            j = np.uint64(later[begin + q])
             alike = g0 * state[j, 0] + g1 * state[j, 1] + g2 * state[j, 2]
-            w = near[q] * np.exp(factor * (1 - alike))
+            weights[q] = factor * (1 - alike)
+        for q in range(count):
+            weights[q] = near[begin + q] * np.exp(weights[q])
+        for q in range(count):
+            j, w = np.uint64(later[begin + q]), weights[q]
             a += w * state[j, 3]
             b += w * state[j, 4]
             c += w * state[j, 5]
@@ -131,4 +145,5 @@ def _filter(
             filtered[i, 1] = b / size
             filtered[i, 2] = c / size
         else:
-            filtered[i] = normals[i]
+            for k in range(3):
+                filtered[i, k] = normals[i, k]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from beltrami._arrays import Floats
-from beltrami._jit import kernel
+from beltrami._jit import kernel, unsigned
 from beltrami.diffusion.face_rings import FaceRings
 from beltrami.mesh.topology import Topology
 
@@ -28,9 +28,10 @@ def guide_normals(topology: Topology, rings: FaceRings, normals: Floats, areas: 
     highest, total = np.zeros(topology.n_vertices), np.zeros(topology.n_vertices)
     _gather(topology.faces, topology.twins, jumps, highest, total)
     means, uneven = np.empty_like(normals), np.empty(len(normals))
-    _judge(*rings, topology.faces, normals, areas, jumps, highest, total, means, uneven)
+    around = unsigned(rings.indptr), unsigned(rings.indices)
+    _judge(*around, topology.faces, normals, areas, jumps, highest, total, means, uneven)
     guides = np.empty_like(normals)
-    _choose(*rings, means, uneven, guides)
+    _choose(*around, means, uneven, guides)
     return guides
 
 
@@ -76,10 +77,12 @@ def _judge(
     uneven: Any,
 ) -> None:
     """Write the mean normal and the unevenness of each ring."""
-    for i in range(faces.shape[0]):
+    one = np.uint64(1)
+    for i in range(np.uint64(faces.shape[0])):
         a = b = c = 0.0
-        for q in range(indptr[i], indptr[i + 1]):
-            j = indices[q]
+        begin, end = indptr[i], indptr[i + one]
+        for q in range(begin, end):
+            j = np.uint64(indices[q])
             a += areas[j] * normals[j, 0]
             b += areas[j] * normals[j, 1]
             c += areas[j] * normals[j, 2]
@@ -88,27 +91,30 @@ def _judge(
             a, b, c, size = normals[i, 0], normals[i, 1], normals[i, 2], 1.0
         a, b, c = a / size, b / size, c / size
         means[i, 0], means[i, 1], means[i, 2] = a, b, c
-        spread = 0.0
-        for q in range(indptr[i], indptr[i + 1]):
-            j = indices[q]
-            spread = max(
-                spread, 2 - 2 * (a * normals[j, 0] + b * normals[j, 1] + c * normals[j, 2])
-            )
+        alike = 1.0
+        for q in range(begin, end):
+            j = np.uint64(indices[q])
+            alike = min(alike, a * normals[j, 0] + b * normals[j, 1] + c * normals[j, 2])
         largest, sum_ = 0.0, _TINY
         for k in range(3):
-            v = faces[i, k]
+            v = np.uint64(faces[i, k])
             largest = max(largest, highest[v])
             sum_ += total[v] - jumps[i, k]  # sides of i are met at two of its corners
-        uneven[i] = np.sqrt(max(spread, 0.0)) * largest / sum_
+        uneven[i] = np.sqrt(2 - 2 * alike) * largest / sum_
 
 
 @kernel
 def _choose(indptr: Any, indices: Any, means: Any, uneven: Any, guides: Any) -> None:
     """Copy the mean of the most even ring around each face; the first of equals."""
-    for i in range(means.shape[0]):
-        best = indices[indptr[i]]
-        for q in range(indptr[i] + 1, indptr[i + 1]):
-            j = indices[q]
-            if uneven[j] < uneven[best]:
-                best = j
-        guides[i] = means[best]
+    one = np.uint64(1)
+    for i in range(np.uint64(means.shape[0])):
+        begin, end = indptr[i], indptr[i + one]
+        best = np.uint64(indices[begin])
+        least = uneven[best]
+        for q in range(begin + one, end):
+            j = np.uint64(indices[q])
+            less = uneven[j] < least  # both are chosen by it without a jump
+            best = j if less else best
+            least = uneven[j] if less else least
+        for k in range(3):
+            guides[i, k] = means[best, k]

@@ -49,9 +49,7 @@ def evened_normals(mesh: Mesh, fidelity: float, rounds: int) -> tuple[Floats, Bo
     twins = mesh.topology.twins
     sides = np.flatnonzero(twins.ravel() > np.arange(twins.size))
     left, right = sides // 3, twins.ravel()[sides] // 3
-    corners = mesh.vertices[mesh.faces]
-    opposite = corners[:, [2, 0, 1]] - corners[:, [1, 2, 0]]
-    lengths = np.linalg.norm(opposite.reshape(-1, corners.shape[2])[sides], axis=1)
+    lengths = mesh.edge_lengths[mesh.topology.face_edges.ravel()[sides]]
     areas = mesh.face_areas
     if not len(sides) or not lengths.any():
         return np.array(mesh.face_normals), np.zeros(mesh.n_faces, np.bool_)
@@ -68,37 +66,45 @@ def evened_normals(mesh: Mesh, fidelity: float, rounds: int) -> tuple[Floats, Bo
 
 @kernel
 def _minimise(left: Any, right: Any, caps: Any, pull: Any, start: Any, rounds: int) -> Any:
-    """Run the rounds on the dual vectors q, the last ones p; n = n⁰ - pull Σ ± q."""
-    e = left.size
-    p, q = np.zeros((e, 3)), np.zeros((e, 3))
-    n = start.copy()
+    """Run the rounds on the dual vectors q, the last ones p; n = n⁰ - pull Σ ± q.
+
+    Each round makes the n of the next one on its way over the edges.
+    """
+    e = np.uint64(left.size)
+    p, q, steps = np.zeros((e, 3)), np.zeros((e, 3)), np.empty(e)
+    for k in range(e):
+        f, g = np.uint64(left[k]), np.uint64(right[k])
+        steps[k] = 1 / (3 * (pull[f] + pull[g]) + 1e-300)
+    n, coming = start.copy(), np.empty_like(start)
     t = 1.0
     for _ in range(rounds):
         following = (1 + np.sqrt(1 + 4 * t * t)) / 2
         momentum = (t - 1) / following
         t = following
+        coming[:] = start
         for k in range(e):
-            f, g = left[k], right[k]
-            step = 1 / (3 * (pull[f] + pull[g]) + 1e-300)
+            f, g, step = np.uint64(left[k]), np.uint64(right[k]), steps[k]
             x = q[k, 0] + step * (n[f, 0] - n[g, 0])
             y = q[k, 1] + step * (n[f, 1] - n[g, 1])
             z = q[k, 2] + step * (n[f, 2] - n[g, 2])
             size = np.sqrt(x * x + y * y + z * z)
             shrink = caps[k] / size if size > caps[k] else 1.0
             x, y, z = shrink * x, shrink * y, shrink * z
-            q[k, 0] = x + momentum * (x - p[k, 0])
-            q[k, 1] = y + momentum * (y - p[k, 1])
-            q[k, 2] = z + momentum * (z - p[k, 2])
+            a = x + momentum * (x - p[k, 0])
+            b = y + momentum * (y - p[k, 1])
+            c = z + momentum * (z - p[k, 2])
             p[k, 0], p[k, 1], p[k, 2] = x, y, z
-        n[:] = start
-        for k in range(e):
-            f, g = left[k], right[k]
-            for d in range(3):
-                n[f, d] -= pull[f] * q[k, d]
-                n[g, d] += pull[g] * q[k, d]
+            q[k, 0], q[k, 1], q[k, 2] = a, b, c
+            coming[f, 0] -= pull[f] * a
+            coming[f, 1] -= pull[f] * b
+            coming[f, 2] -= pull[f] * c
+            coming[g, 0] += pull[g] * a
+            coming[g, 1] += pull[g] * b
+            coming[g, 2] += pull[g] * c
+        n, coming = coming, n
     n[:] = start
     for k in range(e):
-        f, g = left[k], right[k]
+        f, g = np.uint64(left[k]), np.uint64(right[k])
         for d in range(3):
             n[f, d] -= pull[f] * p[k, d]
             n[g, d] += pull[g] * p[k, d]

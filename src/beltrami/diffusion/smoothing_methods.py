@@ -9,6 +9,7 @@ import numpy as np
 
 from beltrami._arrays import Booleans, Floats
 from beltrami._progress import Progress, stages
+from beltrami.diffusion.averaging_series import filter_rows
 from beltrami.diffusion.bilaplacian import bilaplacian_flow
 from beltrami.diffusion.curvature_flow import curvature_flow
 from beltrami.diffusion.face_rings import face_rings
@@ -19,7 +20,7 @@ from beltrami.diffusion.normal_variation import normals_of_small_variation
 from beltrami.diffusion.smoothing import average, averaging_rows, shares_of, smooth
 from beltrami.diffusion.taubin import taubin_steps
 from beltrami.diffusion.vertex_update import fit_to_normals, require_agreeing_normals
-from beltrami.diffusion.windowed_sinc import filter_rows, sinc_coefficients
+from beltrami.diffusion.windowed_sinc import sinc_coefficients
 from beltrami.errors import BeltramiError
 from beltrami.mesh.mesh import Mesh
 from beltrami.operators.laplacian import laplacian

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from scipy.sparse import csr_array
 
-from beltrami._arrays import Booleans, Floats, Integers
-from beltrami._jit import kernel
+from beltrami._arrays import Booleans, Floats
 from beltrami.diffusion.candidates import EVENING, along_normals
 from beltrami.diffusion.filling import error_of_filling, filled
 from beltrami.diffusion.linear_filters import equal_rows, low_passed
 from beltrami.diffusion.noise import median_level
-from beltrami.diffusion.patches import sample_of
+from beltrami.diffusion.patches import Sample, sample_of
+from beltrami.diffusion.planes import PlanesAround, planes_of
 from beltrami.mesh.mesh import Mesh
 
 _ROUNDS = 5
@@ -23,7 +21,6 @@ _LEAST = 0.01  # mean edges: what is off by little more is no matter
 _NEAR = 0.3  # of its distance from most planes, within which a plane holds a vertex
 _HELD = 0.3  # of the planes, that hold a vertex of a crease
 _BETTER = 0.95  # of the quiet scale: less noise in it than in the other
-_MANY = 64  # neighbours, from which vertices are not looked at: their rings are the whole mesh
 _FITTED = 40_000  # values that scales are fitted to
 _STEPS, _CONVERGED = 200, 1e-5
 _FAR = 30.0  # quiet scales, beyond which there is no doubt
@@ -85,70 +82,106 @@ def find_spikes(mesh: Mesh) -> Spikes | None:
     edge = float(mesh.edge_lengths.mean())
     if not edge > 0:
         return None
-    planes = _Planes.of(mesh)
-    found, limit, noisy = _candidates(mesh, planes, edge)
+    around = PlanesAround.of(mesh.topology)
+    first = _candidates(mesh, around, edge)
+    found, limit = first.found, first.limit
     if not found.any() or found.mean() > _MOST:
         return None
     sample = sample_of(mesh, _TRIED_ON)
     tried = found[sample.vertices]
-    ways = ("noise",) if noisy else ("plain", "creased")
+    ways = ("noise",) if first.way == "noise" else ("plain", "creased")
     errors = [error_of_filling(sample.mesh, tried, way) for way in ways]
     error, way = min(zip(errors, ways, strict=True))
-    found = found & (_away(mesh, filled(mesh, found, way)) > limit * edge)
-    x = filled(mesh, found, way)
+    x = first.x if way == first.way else filled(mesh, found, way)
+    far = found & (_away(mesh, x) > limit * edge)
+    if (far != found).any():
+        found, x = far, filled(mesh, far, way)
     away = _away(mesh, x)[found]
     size = math.sqrt(float((away**2).mean())) if len(away) else 0.0
     if size < max(_CLEAR * error, _LARGE * edge) or _together(mesh, found):
         return None
+    spikes = Spikes(found, mesh.with_vertices(x), error)
+    return _with_overlooked(mesh, around, spikes, way, limit * edge, sample)
+
+
+def _with_overlooked(
+    mesh: Mesh, around: PlanesAround, spikes: Spikes, way: str, limit: float, sample: Sample
+) -> Spikes:
+    """Return them with those that planes held by chance, as long as the error falls by them."""
     for _ in range(_MORE_ROUNDS):
-        more = _overlooked(mesh, planes, found, x, max(limit * edge, _CLEAR * error))
-        more &= _away(mesh, filled(mesh, found | more, way)) > max(limit * edge, _CLEAR * error)
-        if not more.any():
-            break
-        found = found | more
+        least = max(limit, _CLEAR * spikes.error)
+        more = _alone_and_off(mesh, around, spikes, least)
+        found = spikes.found | more
         x = filled(mesh, found, way)
-        before, error = (
-            error,
-            min(error, error_of_filling(sample.mesh, found[sample.vertices], way)),
-        )
+        far = more & (_away(mesh, x) > least)
+        if not far.any():
+            break
+        if (far != more).any():
+            found = spikes.found | far
+            x = filled(mesh, found, way)
+        before = spikes.error
+        error = min(before, error_of_filling(sample.mesh, found[sample.vertices], way))
+        spikes = Spikes(found, mesh.with_vertices(x), error)
         if error > _LESS * before:
             break
-    return Spikes(found, mesh.with_vertices(x), error)
+    return spikes
 
 
-def _candidates(mesh: Mesh, planes: _Planes, edge: float) -> tuple[Booleans, float, bool]:
-    """Return which vertices may be spikes, the least size of those, and whether others have noise.
+def _alone_and_off(mesh: Mesh, around: PlanesAround, spikes: Spikes, least: float) -> Booleans:
+    """Return which others are off the planes without spikes; those of creases stand in lines."""
+    off = around.off(planes_of(spikes.mesh), mesh, spikes.mesh.vertices)
+    more = ~spikes.found & (np.abs(off) > least)
+    return np.asarray(more & ~(mesh.topology.adjacency @ more.astype(np.float64) > 0))
 
-    If they do, planes are those of the evened mesh too. Not only: a spike that is not known yet
-    pulls them to itself.
+
+@dataclass(frozen=True, eq=False)
+class _Candidates:
+    """Vertices that may be spikes, more likely than not if so many mean edges large.
+
+    The positions x have them filled, in this way.
+    """
+
+    found: Booleans
+    limit: float
+    way: str
+    x: Floats
+
+
+def _candidates(mesh: Mesh, around: PlanesAround, edge: float) -> _Candidates:
+    """Return which vertices may be spikes, filled as the noise of the others wants it.
+
+    If they have some, planes are those of the evened mesh too. Not only: a spike that is not known
+    yet pulls them to itself.
     """
     rows, x = equal_rows(mesh), mesh.vertices
-    found, limit, noisy = np.zeros(mesh.n_vertices, np.bool_), math.inf, False
+    found, limit, way = np.zeros(mesh.n_vertices, np.bool_), math.inf, "plain"
     for i in range(_ROUNDS):
-        off, held = planes.compared(mesh, x)
-        limit = _limit(off / edge)
-        found = (np.abs(off) > limit * edge) & (held < _HELD)
+        planes = planes_of(mesh.with_vertices(x))
+        off = around.off(planes, mesh, x)
+        found, limit = _far_off(mesh, around, planes, off, edge)
         if i:
             evened = along_normals(mesh.with_vertices(x), low_passed(rows, x, EVENING))
-            other, held = planes.compared(mesh, evened)
-            noisy = bool(np.median(np.abs(other)) < _BETTER * np.median(np.abs(off)))
-            if noisy:
-                limit = _limit(other / edge)
-                found |= (np.abs(other) > limit * edge) & (held < _HELD)
+            planes = planes_of(mesh.with_vertices(evened))
+            other = around.off(planes, mesh, evened)
+            less = np.median(np.abs(other)) < _BETTER * np.median(np.abs(off))
+            way = "noise" if less else "plain"
+            if less:
+                more, limit = _far_off(mesh, around, planes, other, edge)
+                found = found | more
         if not found.any():
             break
-        x = filled(mesh, found, "noise" if noisy else "plain")
-    return found, limit, noisy
+        x = filled(mesh, found, way)
+    return _Candidates(found, limit, way, x)
 
 
-def _overlooked(mesh: Mesh, planes: _Planes, found: Booleans, x: Floats, limit: float) -> Booleans:
-    """Return which others may be spikes, since there are some: those that planes hold by chance.
-
-    Those of creases stand in lines.
-    """
-    off, _ = planes.compared(mesh, x)
-    more = ~found & (np.abs(off) > limit)
-    return np.asarray(more & ~(mesh.topology.adjacency @ more.astype(np.float64) > 0))
+def _far_off(
+    mesh: Mesh, around: PlanesAround, planes: Floats, off: Floats, edge: float
+) -> tuple[Booleans, float]:
+    """Return which vertices are so far off that few planes hold them, and from where on that is."""
+    limit = _limit(off / edge)
+    far = np.abs(off) > limit * edge
+    shares = around.shares(planes, mesh.vertices, np.where(far, _NEAR * np.abs(off), 0.0))
+    return far & (shares < _HELD), limit
 
 
 def _limit(r: Floats) -> float:
@@ -185,96 +218,3 @@ def _together(mesh: Mesh, found: Booleans) -> bool:
     neighbours = float((A @ found.astype(float))[found].mean())
     expected = float(found.mean()) * A.nnz / mesh.n_vertices
     return neighbours > _ALONE + _BY_CHANCE * expected
-
-
-@dataclass(frozen=True, eq=False)
-class _Planes:
-    """The faces around the neighbours of each vertex, but its own."""
-
-    indptr: Integers
-    faces: Integers
-
-    @classmethod
-    def of(cls, mesh: Mesh) -> _Planes:
-        A, F = mesh.topology.adjacency, mesh.topology.vertex_faces
-        few = np.diff(A.indptr) <= _MANY
-        near, own = (_counts(M, few) for M in (A, F))
-        far = csr_array(near @ own)
-        both = csr_array(far - far.multiply(own > 0))
-        both.eliminate_zeros()
-        both.sort_indices()
-        return cls(both.indptr.astype(np.int64), both.indices.astype(np.int64))
-
-    def compared(self, mesh: Mesh, x: Floats) -> tuple[Floats, Floats]:
-        """Return how far the vertices are off the planes of x, and the share that holds them.
-
-        The first less what the neighbours are off themselves at x, as they are where the surface
-        bends.
-        """
-        other = mesh.with_vertices(x)
-        centres = x[mesh.faces].mean(axis=1)
-        planes = (self.indptr, self.faces, other.face_normals, centres)
-        usual = _middles(*planes, x)
-        A = mesh.topology.adjacency
-        off = _middles(*planes, mesh.vertices) - _medians_around(A.indptr, A.indices, usual)
-        return off, _shares(*planes, mesh.vertices, _NEAR * np.abs(off))
-
-
-def _counts(M: Any, rows: Booleans) -> csr_array:
-    """Return M with ones, the other rows left empty."""
-    kept = np.repeat(rows, np.diff(M.indptr))
-    indptr = np.concatenate([[0], np.cumsum(np.where(rows, np.diff(M.indptr), 0))])
-    return csr_array((np.ones(indptr[-1], np.int32), M.indices[kept], indptr), shape=M.shape)
-
-
-@kernel
-def _middles(indptr: Any, faces: Any, normals: Any, centres: Any, x: Any) -> Any:
-    """Return the mean of the middle third of the distances of each x from its planes."""
-    n = indptr.size - 1
-    found, row = np.zeros(n), np.empty(np.max(indptr[1:] - indptr[:-1]) if n else 0)
-    for i in range(n):
-        count = 0
-        for q in range(indptr[i], indptr[i + 1]):
-            f = faces[q]
-            row[count] = (
-                normals[f, 0] * (x[i, 0] - centres[f, 0])
-                + normals[f, 1] * (x[i, 1] - centres[f, 1])
-                + normals[f, 2] * (x[i, 2] - centres[f, 2])
-            )
-            count += 1
-        if count:
-            row[:count].sort()
-            found[i] = row[count // 3 : count - count // 3].mean()
-    return found
-
-
-@kernel
-def _medians_around(indptr: Any, indices: Any, values: Any) -> Any:
-    """Return the median of the values at the neighbours of each vertex."""
-    n = indptr.size - 1
-    found = np.zeros(n)
-    for i in range(n):
-        row = np.sort(values[indices[indptr[i] : indptr[i + 1]]])
-        if row.size:
-            found[i] = 0.5 * (row[(row.size - 1) // 2] + row[row.size // 2])
-    return found
-
-
-@kernel
-def _shares(indptr: Any, faces: Any, normals: Any, centres: Any, x: Any, reach: Any) -> Any:
-    """Return the share of its planes that are within the reach of each x."""
-    n = indptr.size - 1
-    found = np.zeros(n)
-    for i in range(n):
-        count = 0
-        for q in range(indptr[i], indptr[i + 1]):
-            f = faces[q]
-            away = (
-                normals[f, 0] * (x[i, 0] - centres[f, 0])
-                + normals[f, 1] * (x[i, 1] - centres[f, 1])
-                + normals[f, 2] * (x[i, 2] - centres[f, 2])
-            )
-            count += abs(away) < reach[i]
-        if count:
-            found[i] = count / (indptr[i + 1] - indptr[i])
-    return found

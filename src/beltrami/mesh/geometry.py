@@ -90,12 +90,16 @@ def face_areas(vertices: Floats, faces: Integers) -> Floats:
 
 
 def unit(vectors: Floats) -> Floats:
-    """Divide each row by its length; a zero row stays zero, and what is not finite so."""
-    scale = np.abs(vectors).max(axis=1, initial=0.0)
-    with np.errstate(invalid="ignore"):
-        scaled = vectors / np.where(scale > 0, scale, 1)[:, None]  # no underflow in the squares
-    length = np.sqrt(np.einsum("fc,fc->f", scaled, scaled))
-    return scaled / np.where(length > 0, length, 1)[:, None]
+    """Divide each row (x, y, z) by its length; a zero row stays, and what is not finite so.
+
+    Examples
+    --------
+    >>> unit(np.array([[3e-300, 0, 4e-300], [0, 0, 0]])).round(9).tolist()
+    [[0.6, 0.0, 0.8], [0.0, 0.0, 0.0]]
+    """
+    out = np.empty(vectors.shape)
+    _unit(vectors, out)
+    return out
 
 
 def corner_angles(vertices: Floats, faces: Integers) -> Floats:
@@ -146,6 +150,21 @@ def degenerate_faces(vertices: Floats, faces: Integers) -> Integers:
     """
     positions, corners = in_space(well_scaled(vertices)[0], faces)
     return np.flatnonzero(_degenerate(positions, corners, faces)).astype(np.int64)
+
+
+@kernel
+def _unit(vectors: Any, out: Any) -> None:
+    """Divide first by the largest component, so that no square underflows."""
+    for f in range(np.uint64(out.shape[0])):
+        a, b, c = vectors[f, 0], vectors[f, 1], vectors[f, 2]
+        scale = max(abs(a), abs(b), abs(c))
+        if not scale > 0 or np.isnan(a) or np.isnan(b) or np.isnan(c):
+            scale = 1.0
+        a, b, c = a / scale, b / scale, c / scale
+        length = np.sqrt(a * a + c * c + b * b)
+        if not length > 0:
+            length = 1.0
+        out[f, 0], out[f, 1], out[f, 2] = a / length, b / length, c / length
 
 
 @kernel
