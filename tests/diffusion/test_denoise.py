@@ -247,6 +247,9 @@ class TestCandidates:
         found, expected = (filtered(other, b, [one])[0] for b in (moved, afresh))
         assert np.array_equal(found, expected)
         assert np.array_equal(moved.normals, afresh.normals)
+        anew = Bench.of(mesh, Linear(0.7)).moved(other, Linear(0.2))
+        assert anew.evening == Linear(0.2)
+        assert np.array_equal(filtered(other, anew, [one])[0], expected)
         kept = filtered(other, Bench.of(mesh, Linear(0.2)), [one])[0]
         assert np.abs(kept - expected).max() > 0.01 * sigma
 

@@ -184,6 +184,22 @@ def test_unit_of_rows_large_and_small():
     )
 
 
+def test_unit_of_what_is_not_finite_is_not():
+    inf, nan = np.inf, np.nan
+    rows = np.array([[inf, 0, 0], [-inf, inf, 1], [nan, 2, 0], [3, -4, nan], [inf, nan, 1]])
+    assert not np.isfinite(geometry.unit(rows)).all(axis=1).any()
+
+
+def test_unit_against_numpy():
+    random = np.random.default_rng(0)
+    rows = random.standard_normal((100, 3)) * 10 ** random.uniform(-3, 3, (100, 3))
+    expected = rows / np.linalg.norm(rows, axis=1)[:, None]
+    for some in (rows, rows[::3], np.asfortranarray(rows), rows[:0]):
+        found = geometry.unit(some)
+        assert found == pytest.approx(expected[::3] if len(some) == 34 else expected[: len(some)])
+    assert np.array_equal(geometry.unit(-rows), -geometry.unit(rows))
+
+
 # ------------------------------------------------------------------------------ flat faces
 
 

@@ -39,7 +39,7 @@ class PlanesAround:
         --------
         >>> around = PlanesAround.of(Topology([[0, 1, 2], [2, 1, 3], [3, 4, 5]]))
         >>> around.indptr.tolist(), around.faces.tolist()
-        ([0, 1, 1, 1, 2, 3, 4], [1, 0, 1, 1])
+        ([0, 1, 2, 3, 4, 5, 6], [1, 2, 2, 0, 1, 1])
         """
         A, F = topology.adjacency, topology.vertex_faces
         near = unsigned(A.indptr), unsigned(A.indices)
