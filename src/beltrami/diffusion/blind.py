@@ -18,13 +18,14 @@ from beltrami.diffusion.choice import (
     choose,
     with_borders,
 )
-from beltrami.diffusion.colour import NoiseColour, noise_colour, with_colour
+from beltrami.diffusion.colour import NoiseColour, colour_beside, noise_colour, with_colour
 from beltrami.diffusion.level import level_beside
 from beltrami.diffusion.linear_filters import LINEAR, Linear, equal_rows
 from beltrami.diffusion.noise import SPIKED, STRONG, NoiseLevel, noise_level
 from beltrami.diffusion.patches import Sample, sample_of, sizes_of_components
 from beltrami.diffusion.spikes import Spikes, find_spikes
 from beltrami.mesh.mesh import Mesh
+from beltrami.solvers.locality import LocalRows
 
 _ENOUGH = 1_500  # vertices, from which noise may be told from creases that are everywhere
 FEW = 40  # vertices of a component, below which nobody can tell noise from shape
@@ -140,18 +141,18 @@ def _chosen(
     if there is not None:
         sample = replace(sample, core=sample.core & ~there)
     normals = bench.normals[sample.vertices]
-    colour = None
+    colour, rows, uncoloured = None, equal_rows(sample.mesh), found
     if largest >= _ENOUGH and spikes is None:
-        colour = _colour(sample, normals, edge)
+        colour = _colour(sample, rows, normals, edge)
     if colour is not None:
-        found = with_colour(found, colour, equal_rows(sample.mesh))
+        found = with_colour(uncoloured, colour, rows)
     odd = bool(found.warnings)
     sigma = noise if noise is not None else found.spread if odd else found.sigma
     if sigma == 0:
         return found, _nothing(), bench
     few = linear or mesh.n_vertices < _SMALL
     known = noise is not None or (odd and colour is None)
-    alike = partial(choose, sample, known=known, evening=bench.evening, colour=colour)
+    alike = partial(choose, sample, known=known, evening=bench.evening)
     low_passes, filters = (
         LINEAR if few else LOW_PASSES,
         LINEAR if few else LOW_PASSES if odd else ALL,
@@ -159,17 +160,21 @@ def _chosen(
     if mesh.topology.on_boundary[sample.vertices[sample.core]].mean() > _BORDERS:
         low_passes, filters = with_borders(low_passes), with_borders(filters)
     for _ in range(looks):
-        low = alike(float(sigma), normals, low_passes, caution=CAUTION_ON_SMOOTH)
+        low = alike(float(sigma), normals, low_passes, caution=CAUTION_ON_SMOOTH, colour=colour)
         once_more = partial(_filtered, evening=bench.evening, choice=low)
         clean = once_more(sample.mesh)
         normals = clean.vertex_normals
-        if noise is None and colour is None:
+        if colour is not None:
+            colour = colour_beside(colour, rows, sample.mesh, clean, once_more, sample.core)
+            found = with_colour(uncoloured, colour, rows)
+            sigma = found.spread if noise is None else noise
+        elif noise is None:
             sigma = (
                 level_beside(sample.mesh, clean, once_more)
                 if there is None and not odd
                 else _level(sample.mesh, normals, there).spread
             )
-    return found, alike(float(sigma), normals, filters), bench
+    return found, alike(float(sigma), normals, filters, colour=colour), bench
 
 
 def _height(mesh: Mesh) -> float:
@@ -195,9 +200,9 @@ def _filtered(mesh: Mesh, evening: Linear, choice: Choice) -> Mesh:
     return mesh.with_vertices(apply(mesh, Bench.of(mesh, evening), choice))
 
 
-def _colour(sample: Sample, normals: Floats, edge: float) -> NoiseColour | None:
+def _colour(sample: Sample, rows: LocalRows, normals: Floats, edge: float) -> NoiseColour | None:
     """Return the colour of the noise, if it has one."""
     if sample.mesh.n_vertices < _ENOUGH:
         return None
-    found = noise_colour(equal_rows(sample.mesh), sample.mesh.vertices, normals, sample.core)
+    found = noise_colour(rows, sample.mesh.vertices, normals, sample.core)
     return found if found.is_coloured(edge) else None
