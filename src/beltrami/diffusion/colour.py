@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 from numpy.polynomial import Chebyshev
 
-from beltrami._arrays import Booleans, Floats
+from beltrami._arrays import Booleans, Floats, Integers
 from beltrami.diffusion.noise import NoiseLevel
 from beltrami.diffusion.windowed_sinc import filter_rows
 from beltrami.mesh.mesh import Mesh
@@ -104,6 +104,16 @@ class NoiseColour:
         """Return noise (n, d) of this colour from white noise of variance 1."""
         series = Chebyshev.interpolate(lambda x: self.amplitude(1 - x), _DEGREE)
         return filter_rows(rows, white, np.asarray(series.coef, np.float64))
+
+    def deviation(self, rows: LocalRows, degrees: Integers, f: Floats) -> float:
+        r"""Return the standard deviation of :math:`\sum_i f_i z_i`, z noise of this colour.
+
+        With :math:`z = A w`, w white, it is :math:`|A^T f|`, and :math:`A^T = D A D^{-1}`, as A is
+        a polynomial of W̃; D are the ``degrees``.
+        """
+        weights = np.maximum(degrees, 1)
+        back = self.noise(rows, (f / weights)[:, None])[:, 0] * weights
+        return float(np.linalg.norm(back))
 
     def level(self, rows: LocalRows) -> float:
         """Return the standard deviation of all frequencies."""
