@@ -1,12 +1,20 @@
 """The colour of noise: white noise and clean shapes have none, averaged noise has its own."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
-from beltrami.diffusion.candidates import Bench, filtered
-from beltrami.diffusion.colour import NoiseColour, noise_colour, with_colour
+from beltrami.diffusion.candidates import Bench, along_normals, filtered
+from beltrami.diffusion.colour import (
+    NoiseColour,
+    colour_beside,
+    noise_colour,
+    start_of_line,
+    with_colour,
+)
 from beltrami.diffusion.denoise import denoise
-from beltrami.diffusion.linear_filters import LINEAR
+from beltrami.diffusion.linear_filters import LINEAR, Linear, low_passed
 from beltrami.diffusion.noise import noise_level
 from beltrami.mesh import shapes
 from made_once import creature
@@ -152,6 +160,88 @@ def test_nothing_moves_on_a_plane():
     found = colour_of(shapes.grid(20, 20, dimension=3))
     assert found.levels == pytest.approx([0] * 5, abs=1e-12)
     assert not found.is_coloured(1.0)
+
+
+def folded(height, waves):
+    """A sphere with waves all over, three times as high on one side."""
+    sphere = shapes.icosphere(5)
+    x, y, z = sphere.vertices.T
+    wave = (1.5 + z) * np.sin(waves * x) * np.sin(waves * y)
+    return sphere.with_vertices(sphere.vertices * (1 + height * wave)[:, None])
+
+
+def smoothed(mesh, rows, cut):
+    return mesh.with_vertices(along_normals(mesh, low_passed(rows, mesh.vertices, Linear(cut))))
+
+
+class TestBeside:
+    def measured(self, truth, noise, cut=0.3, core=None):
+        """Return the levels, of the noise alone, before and beside, in mean edges."""
+        mesh, edge = moved(truth, noise), float(truth.edge_lengths.mean())
+        core = np.ones(len(noise), np.bool_) if core is None else core
+        rows = Bench.of(mesh).rows
+        first = colour_of(mesh)
+        way = partial(smoothed, rows=rows, cut=cut)
+        found = colour_beside(first, rows, mesh, way(mesh), way, core)
+        assert found.uneven == (1.0,) * 5
+        assert found.kurtosis == first.kurtosis
+        return np.array(first.levels) / edge, np.array(found.levels) / edge
+
+    def test_what_is_left_of_the_noise_is_no_shape(self):
+        found = [self.measured(TORUS, white(TORUS, 0.2, seed), 0.4)[1] for seed in range(4)]
+        assert np.mean(found, axis=0) == pytest.approx([0.2] * 5, rel=0.05)
+
+    @pytest.mark.parametrize("seed", [0, 2])
+    def test_shape_that_is_all_over_is_told(self, seed):
+        truth = folded(0.03, 20)
+        before, found = self.measured(truth, white(truth, 0.2, seed))
+        assert before[0] > 0.26
+        assert found == pytest.approx([0.2] * 5, rel=0.1)
+
+    def test_the_core_counts(self):
+        noise = white(TORUS, 0.2) * np.where(TORUS.vertices[:, 0] > 0, 1, 4)
+        _, found = self.measured(TORUS, noise, core=TORUS.vertices[:, 0] > 0.3)
+        assert found[2:] == pytest.approx([0.2] * 3, rel=0.1)
+
+    def test_where_nothing_is_noise_the_colour_stays(self):
+        plane = shapes.grid(20, 20, dimension=3)
+        first, rows = colour_of(moved(TORUS, white(TORUS, 0.2))), Bench.of(plane).rows
+        core = np.ones(plane.n_vertices, np.bool_)
+        assert colour_beside(first, rows, plane, plane, lambda other: other, core) is first
+
+    def test_a_filter_that_leaves_all_noise_says_little(self):
+        """All that is put on the first result would be shape: levels are doubled, and no more."""
+        mesh = moved(TORUS, white(TORUS, 0.2))
+        rows, core = Bench.of(mesh).rows, np.ones(mesh.n_vertices, np.bool_)
+        first, clean = colour_of(mesh), smoothed(mesh, rows, 0.02)
+        found = colour_beside(first, rows, mesh, clean, lambda other: other, core)
+        edge = float(TORUS.edge_lengths.mean())
+        assert np.array(found.levels) / edge == pytest.approx([0.4] * 5, rel=0.1)
+
+    @pytest.mark.parametrize("unit", [1e-9, 1e9])
+    def test_the_unit_does_not_matter(self, unit):
+        noise = averaged(BLOB, 0.3, own=1 / 7)
+        _, found = self.measured(BLOB, noise)
+        _, other = self.measured(BLOB.with_vertices(unit * BLOB.vertices), noise)
+        assert other == pytest.approx(found, rel=1e-6)
+
+    def test_lines(self):
+        random = np.random.default_rng(0)
+        x = random.exponential(size=4000)
+        y = (1 + 2 * x) * random.gamma(8, 1 / 8, 4000)
+        assert start_of_line(x, y) == pytest.approx(1, rel=0.05)
+        w = np.ones_like(y)
+        for _ in range(50):
+            a, b = np.linalg.lstsq(np.stack([w, w * x], axis=1), w * y)[0]
+            w = 1 / (a + b * x)
+        assert start_of_line(x, y) == pytest.approx(a, rel=1e-6)
+        assert start_of_line(x, 3 + 0 * x) == pytest.approx(3)
+        assert start_of_line(0 * x, y) == pytest.approx(y.mean())
+        assert start_of_line(x, 5 - x) == pytest.approx(np.mean(5 - x))  # no line falls
+        two = np.repeat([1.0, 2.0], 50)
+        assert 1 < start_of_line(two, 5 * two) < 2  # or is as steep as that
+        assert start_of_line(x, 2 * x) == pytest.approx(0, abs=1e-9)
+        assert start_of_line(x, 0 * x) == 0
 
 
 class TestDenoise:

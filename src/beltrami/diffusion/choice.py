@@ -26,6 +26,7 @@ from beltrami.diffusion.linear_filters import AT_BORDERS, IN_PARTS, LINEAR, Line
 from beltrami.diffusion.patches import Sample
 from beltrami.diffusion.risk import best_mixture, mixture_risk
 from beltrami.mesh.mesh import Mesh
+from beltrami.solvers.locality import LocalRows
 
 _PROBE = 0.3  # size of the probe that measures divergences, in σ
 _PROBED = 16_000  # vertices that are probed, at least, by probing small meshes twice
@@ -64,11 +65,15 @@ class Choice:
     corrections: Corrections = NONE
 
 
+NOTHING = Choice(0.0, (), np.zeros(0), np.zeros(0), 0.0)
+
+
 @dataclass(frozen=True, eq=False)
 class _Trial:
     """A mesh, where it counts, and changes of it of the mean square ``square``.
 
-    Mixtures are chosen as if σ were ``caution`` times as large.
+    Mixtures are chosen as if σ were ``caution`` times as large, for noise of the colour along the
+    normals; ``rows`` are those of W̃.
     """
 
     mesh: Mesh
@@ -76,6 +81,9 @@ class _Trial:
     probes: list[Floats]
     square: float
     caution: float
+    normals: Floats
+    colour: NoiseColour | None
+    rows: LocalRows
 
     def mixture(
         self, here: list[Floats], there: list[list[Floats]], sigma: float, simple: int, sure: float
@@ -83,8 +91,7 @@ class _Trial:
         """Return the best mixture of the positions ``here``, and its risk.
 
         ``there`` is what they are for the changed copies. Unless the mixture of all is better by
-        ``sure`` times what may be chance, the best one of the first ``simple`` is taken: to the
-        difference of two risks the noise adds something of the standard deviation 2σ |x - y|/n.
+        ``sure`` times what may be chance, the best one of the first ``simple`` is taken.
         """
         core, n = self.core, int(self.core.sum())
         moves = np.stack([(x - self.mesh.vertices)[core].ravel() for x in here])
@@ -100,12 +107,27 @@ class _Trial:
         plain = np.zeros_like(weights)
         plain[:simple] = best_mixture(gram[:simple, :simple], divergence[:simple], cautious)
         costs = [mixture_risk(w, gram, divergence, cautious) for w in (weights, plain)]
-        apart = math.sqrt(max(float((weights - plain) @ gram @ (weights - plain)), 0.0))
-        if costs[1] - costs[0] < sure * 2 * sigma * apart / math.sqrt(n):
+        if costs[1] - costs[0] < sure * self.chance(
+            _mixed(weights, here), _mixed(plain, here), sigma
+        ):
             weights = plain
         risk = mixture_risk(weights, gram, divergence, sigma)
         # the noise that is left is at least what a filter of this divergence must leave
         return weights, max(risk, (sigma * float(weights @ divergence)) ** 2)
+
+    def chance(self, x: Floats, y: Floats, sigma: float) -> float:
+        """Return the standard deviation of what the noise adds to the difference of two risks.
+
+        It adds 2⟨x - y, noise⟩/n: of the deviation 2σ |x - y|/n if it is white, but noise that is
+        strong at low frequencies has more in common with what two low passes leave.
+        """
+        apart, n = (x - y) * self.core[:, None], int(self.core.sum())
+        if self.colour is None:
+            return 2 * sigma * float(np.linalg.norm(apart)) / n
+        degrees = np.diff(self.mesh.topology.adjacency.indptr)
+        along = np.einsum("ij,ij->i", apart, self.normals)
+        deviation = self.colour.deviation(self.rows, degrees, along)
+        return 2 * sigma * deviation / self.colour.level(self.rows) / n
 
     def level(
         self, here: list[Floats], there: list[list[Floats]], sigma: float, near: float
@@ -167,7 +189,8 @@ def choose(
     benches = [bench.moved(other) for other in others]  # the weights depend on the noise too
     here = filtered(mesh, bench, filters)
     there = [filtered(other, b, filters) for other, b in zip(others, benches, strict=True)]
-    trial = _Trial(mesh, sample.core, probes, (_PROBE * sigma) ** 2, caution)
+    square = (_PROBE * sigma) ** 2
+    trial = _Trial(mesh, sample.core, probes, square, caution, normals, colour, bench.rows)
     k = sum(not one.by_length for one in LINEAR)
     near = _NEAR if colour is None else _NEAR_IF_COLOURED
     level = trial.level(here[1:k], [moved[1:k] for moved in there], sigma, near)

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
 from numpy.polynomial import Chebyshev
 
-from beltrami._arrays import Booleans, Floats
+from beltrami._arrays import Booleans, Floats, Integers
 from beltrami.diffusion.averaging_series import filter_rows, filter_rows_by
 from beltrami.diffusion.noise import NoiseLevel
+from beltrami.mesh.mesh import Mesh
 from beltrami.solvers.locality import LocalRows
 
 # gains k^a (2 - k)^b, largest at 2a/(a + b): polynomials of W̃, so that creases stay where they are
@@ -31,6 +33,11 @@ _STEP, _FALL, _RISE = 1.2, 1.3, 0.95  # of the highest bands, that a floor of wh
 _FLATTEST, _STEEPEST = 1.0, 6.0  # powers of 1 - k/2
 _SHAPE = 1.5  # power of what is uneven that is shape
 _CHANCE = 0.12  # by which noise alone may be uneven
+_DRAWN, _MOST_DRAWS = 32_000, 4  # vertices that get noise again, by doing so some times
+_MOST_MORE = 2.0  # times the level: a line that starts lower says little
+_FITS = 10
+_STEEPEST_LINE = 4.0  # a first result has half of the amplitudes of the shape, at least
+_LEAST_FIT = 1e-3  # of the mean: a line through 0 has no relative errors there
 _WHITE = 6  # columns of white noise to compare with
 _SEED = 7
 _DEGREE = 40
@@ -44,7 +51,7 @@ class NoiseColour:
     ----------
     levels
         Standard deviation of the white noise that is as strong in the band, where the mesh is
-        quiet: the tenth of the vertices with the least of it around them.
+        quiet: the tenth of the vertices with the least of it around them; or beside a first result.
     uneven
         How much stronger the band is where there is much of it than where there is little, over
         what white noise has there: 1 where there is noise alone, more where there is shape.
@@ -98,6 +105,21 @@ class NoiseColour:
         series = Chebyshev.interpolate(lambda x: self.amplitude(1 - x), _DEGREE)
         return filter_rows(rows, white, np.asarray(series.coef, np.float64))
 
+    def deviation(self, rows: LocalRows, degrees: Integers, f: Floats) -> float:
+        r"""Return the standard deviation of :math:`\sum_i f_i z_i`, z noise of this colour.
+
+        With :math:`z = A w`, w white, it is :math:`|A^T f|`, and :math:`A^T = D A D^{-1}`, as A is
+        a polynomial of W̃; D are the ``degrees``.
+        """
+        weights = np.maximum(degrees, 1)
+        back = self.noise(rows, (f / weights)[:, None])[:, 0] * weights
+        return float(np.linalg.norm(back))
+
+    def level(self, rows: LocalRows) -> float:
+        """Return the standard deviation of all frequencies."""
+        white = np.random.default_rng(_SEED).standard_normal((len(rows.order), 1))
+        return float(np.sqrt((self.noise(rows, white) ** 2).mean()))
+
 
 def noise_colour(rows: LocalRows, x: Floats, normals: Floats, core: Booleans) -> NoiseColour:
     r"""Measure it along the normals of a mesh, on the vertices of the core.
@@ -117,16 +139,11 @@ def noise_colour(rows: LocalRows, x: Floats, normals: Floats, core: Booleans) ->
     -----
     Cost: O(n), some 400 products with W̃.
     """
-    white = np.random.default_rng(_SEED).standard_normal((len(x), _WHITE))
     levels, uneven, kurtosis = [], [], 3.0
-    series = [np.array(_series(i)) for i in range(len(_EXPONENTS))]
-    both = (filter_rows_by(rows, values, series) for values in (x, white))
-    for i, (moved, alike) in enumerate(zip(*both, strict=True)):
-        found = np.einsum("ij,ij->i", moved, normals)
-        gain = np.maximum(_around(rows, (alike**2).mean(axis=1)), np.finfo(float).tiny)
+    for i, (found, alike, gain) in enumerate(_bands(rows, x, normals)):
         (quiet, rough), (white_quiet, white_rough) = (
             np.sqrt(np.quantile(_around(rows, _cut(f**2 / gain))[core], (_QUIET, _ROUGH)))
-            for f in (found, alike[:, 0])
+            for f in (found, alike)
         )
         levels.append(float(quiet / white_quiet) if white_quiet > 0 else 0.0)
         if i == _MIDDLE:
@@ -138,10 +155,110 @@ def noise_colour(rows: LocalRows, x: Floats, normals: Floats, core: Booleans) ->
     return NoiseColour(tuple(levels), tuple(uneven), kurtosis)
 
 
+def colour_beside(
+    colour: NoiseColour,
+    rows: LocalRows,
+    mesh: Mesh,
+    clean: Mesh,
+    filtered: Callable[[Mesh], Mesh],
+    core: Booleans,
+) -> NoiseColour:
+    r"""Return the colour with the levels of the noise beside the shape, which a first result tells.
+
+    In each band, mean squares around the vertices are those of the noise, the same everywhere, and
+    those of the shape, which are large where the first result has much in this band. A line is
+    fitted through the ones over the others; the noise is where it starts. It is steep if the first
+    result has lost much of the shape, and too steep by the noise that was left in it: how much
+    lower it starts for that is measured on noise of the same colour, put on the first result and
+    filtered the same way.
+
+    Parameters
+    ----------
+    colour, core
+        As measured at first, on these vertices.
+    rows
+        Of W̃.
+    mesh, clean
+        The noisy mesh, and the first result.
+    filtered
+        The filter that leads from one to the other.
+
+    Returns
+    -------
+    NoiseColour: even; ``colour`` itself, if there is a band where all may be shape.
+
+    Notes
+    -----
+    Cost: O(n), up to four times some 1000 products with W̃, and one run of the filter.
+    """
+    found = _beside(rows, mesh, clean, core)
+    if not found.min() > 0:
+        return colour
+    even = replace(colour, levels=tuple(found.tolist()), uneven=(1.0,) * len(found))
+    random = np.random.default_rng(_SEED)
+    true, seen = np.zeros(len(found)), np.zeros(len(found))
+    for _ in range(min(_MOST_DRAWS, math.ceil(_DRAWN / len(core)))):
+        noise = even.noise(rows, random.standard_normal((len(core), 1)))
+        again = mesh.with_vertices(clean.vertices + noise * clean.vertex_normals)
+        seen += _beside(rows, again, filtered(again), core) ** 2
+        bands = _bands(rows, noise, np.ones_like(noise))
+        true += [float((f[core] ** 2).sum() / gain[core].sum()) for f, _, gain in bands]
+    more = np.sqrt(true / np.maximum(seen, true / _MOST_MORE**2))
+    return replace(even, levels=tuple((found * more).tolist()))
+
+
+def _beside(rows: LocalRows, mesh: Mesh, clean: Mesh, core: Booleans) -> Floats:
+    """Return the levels of the bands where the first result has nothing."""
+    normals = clean.vertex_normals
+    pairs = zip(
+        _bands(rows, mesh.vertices, normals), _bands(rows, clean.vertices, normals), strict=True
+    )
+    starts = [
+        start_of_line(_around(rows, g**2 / gain)[core], _around(rows, _cut(f**2 / gain))[core])
+        for (f, _, gain), (g, _, _) in pairs
+    ]
+    return np.sqrt(starts)
+
+
+def start_of_line(x: Floats, y: Floats) -> float:
+    """Return a >= 0 of the line a + b x that is near y, 0 <= b <= 4, x and y >= 0.
+
+    Values far from 0 are uncertain in proportion: squares of relative errors are made least, those
+    to the line before, some times.
+
+    Examples
+    --------
+    >>> x = np.array([0.0, 1.0, 2.0, 3.0])
+    >>> round(start_of_line(x, 5 + 2 * x), 9), round(start_of_line(x, 5 - x), 9)
+    (5.0, 3.5)
+    """
+    start, fit = 0.0, np.ones_like(y)
+    for _ in range(_FITS):
+        w = fit**-2 / (fit**-2).sum()
+        middle, mean = float(w @ x), float(w @ y)
+        spread = float(w @ (x - middle) ** 2)
+        slope = float(w @ ((x - middle) * y)) / spread if spread > 0 else 0.0
+        slope = min(max(slope, 0.0), _STEEPEST_LINE)
+        start = max(mean - slope * middle, 0.0)
+        fit = np.maximum(start + slope * x, _LEAST_FIT * mean)
+        if not fit.min() > 0:
+            return start
+    return start
+
+
+def _bands(rows: LocalRows, x: Floats, normals: Floats) -> Iterator[tuple[Floats, Floats, Floats]]:
+    """Yield x in each band, along the normals, white noise alike, and the mean square of that."""
+    white = np.random.default_rng(_SEED).standard_normal((len(x), _WHITE))
+    series = [np.array(_series(i)) for i in range(len(_EXPONENTS))]
+    both = (filter_rows_by(rows, values, series) for values in (x, white))
+    for moved, alike in zip(*both, strict=True):
+        gain = np.maximum(_around(rows, (alike**2).mean(axis=1)), np.finfo(float).tiny)
+        yield np.einsum("ij,ij->i", moved, normals), alike[:, 0], gain
+
+
 def with_colour(found: NoiseLevel, colour: NoiseColour, rows: LocalRows) -> NoiseLevel:
     """Return the level of noise of the colour, of all its frequencies, and say that it has one."""
-    white = np.random.default_rng(_SEED).standard_normal((len(rows.order), 1))
-    sigma = float(np.sqrt((colour.noise(rows, white) ** 2).mean()))
+    sigma = colour.level(rows)
     more = colour.levels[_MIDDLE] / colour.levels[_TOP]
     text = (
         "the noise is not white: neighbours are alike (at middle frequencies there is "

@@ -71,7 +71,8 @@ def denoise(
     strong beside long thin faces, which it folds, ``warnings`` say so, and only low passes are
     used, whose estimate of the error needs no Gaussian. Then the level is the root mean square,
     outliers included; of noise that is not white (``noise_colour``) it is that of all frequencies,
-    and the estimate has its covariance. Spikes, single vertices or pairs that are far off, are told
+    measured beside the shape of a first result (``colour_beside``), and the estimate has its
+    covariance. Spikes, single vertices or pairs that are far off, are told
     in ``spikes``: they are missing data, and the rest is denoised as if it were all, safely if it
     is odd still.
 

@@ -1,0 +1,258 @@
+"""What is known of a noisy mesh before anything is chosen, and looks at it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from beltrami._arrays import Booleans, Floats
+from beltrami.diffusion.candidates import EVENING_IF_STRONG, Bench, Filter
+from beltrami.diffusion.choice import (
+    ALL,
+    CAUTION,
+    CAUTION_ON_SMOOTH,
+    LOW_PASSES,
+    NOTHING,
+    Choice,
+    apply,
+    choose,
+    with_borders,
+)
+from beltrami.diffusion.colour import NoiseColour, colour_beside, noise_colour, with_colour
+from beltrami.diffusion.level import level_beside, rough_part
+from beltrami.diffusion.linear_filters import LINEAR, equal_rows
+from beltrami.diffusion.noise import STRONG, Differences, NoiseLevel, noise_level
+from beltrami.diffusion.patches import Sample, sample_of, sizes_of_components
+from beltrami.mesh.mesh import Mesh
+
+_ENOUGH = 1_500  # vertices, from which noise may be told from creases that are everywhere
+SMALL = 200  # vertices below which only linear filters are trusted
+_BORDERS = 0.01  # of the vertices, below which they matter less than what more choice costs
+_LOOKS, _LOOKS_IF_STRONG = 1, 2  # at the normals, before the choice
+_STRONG_BESIDE = 0.77  # of the least height of half of the faces, of the noisy mesh
+_TIMES = 2  # that the level is measured without spikes
+_FAINTEST = 1e-3  # mean edges, that noise is taken for beside the outliers of a shape
+_ROUNDING = 1e-9  # mean edges, up to which there is no noise
+_LEFT = 0.55  # of the square that goes beside a first result, of outliers that are the shape's
+_SEED = 12
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """What is known of a mesh before anything is chosen.
+
+    Attributes
+    ----------
+    noise
+        Its level, if it was said.
+    measured, found
+        What was measured of it, and what is known of it: its colour, and what outliers are.
+    bench, sample
+        Of the mesh.
+    colour
+        Of the noise, if it has one.
+    spikes
+        The vertices of the sample that were put in the place of spikes, if there were some.
+    largest
+        Vertices of the largest component.
+    looks
+        At the normals, before the choice.
+    linear, on_border
+        Whether only linear filters are asked for, and whether borders matter.
+    """
+
+    noise: float | None
+    measured: NoiseLevel
+    found: NoiseLevel
+    bench: Bench
+    sample: Sample
+    colour: NoiseColour | None
+    spikes: Booleans | None
+    largest: int
+    looks: int
+    linear: bool
+    on_border: bool
+
+    @classmethod
+    def of(
+        cls,
+        mesh: Mesh,
+        noise: float | None,
+        size: int,
+        *,
+        linear: bool,
+        bench: Bench | None = None,
+        spikes: Booleans | None = None,
+    ) -> Seen:
+        """Measure the noise; its bench may be known."""
+        bench, looks = bench or Bench.of(mesh), _LOOKS
+        found = _level(mesh, bench.normals, spikes)
+        largest = int(sizes_of_components(mesh)[1].max())
+        edge, height = float(mesh.edge_lengths.mean()), _height(mesh)
+        beside = found.sigma > _STRONG_BESIDE * height
+        if found.relative > STRONG or beside:
+            bench, looks = bench.moved(mesh, EVENING_IF_STRONG), _LOOKS_IF_STRONG
+            found = _level(mesh, bench.normals, spikes)
+        if beside and not found.relative > STRONG:
+            told = (
+                f"the noise is strong beside the faces, whose median height is {height / edge:.2f}"
+            )
+            found = replace(found, warnings=(*found.warnings, f"{told} mean edge lengths"))
+        sample = sample_of(mesh, size)
+        there = None if spikes is None else spikes[sample.vertices]
+        if there is not None:
+            sample = replace(sample, core=sample.core & ~there)
+        seen = cls(
+            noise,
+            found,
+            found,
+            bench,
+            sample,
+            None,
+            there,
+            largest,
+            looks,
+            linear or mesh.n_vertices < SMALL,
+            float(mesh.topology.on_boundary[sample.vertices[sample.core]].mean()) > _BORDERS,
+        )
+        colour = seen._first_colour(edge)
+        if colour is not None:
+            return seen._of_colour(colour)
+        if found.has_outliers and mesh.n_vertices >= SMALL:
+            return replace(seen, found=seen._explained(_FAINTEST * edge))
+        return seen
+
+    def _first_colour(self, edge: float) -> NoiseColour | None:
+        """Return the colour of the noise, if it has one."""
+        mesh = self.sample.mesh
+        if min(self.largest, mesh.n_vertices) < _ENOUGH or self.spikes is not None:
+            return None
+        normals = self.bench.normals[self.sample.vertices]
+        found = noise_colour(equal_rows(mesh), mesh.vertices, normals, self.sample.core)
+        return found if found.is_coloured(edge) else None
+
+    def _of_colour(self, colour: NoiseColour) -> Seen:
+        found = with_colour(self.measured, colour, equal_rows(self.sample.mesh))
+        return replace(self, colour=colour, found=found)
+
+    def _explained(self, least: float) -> NoiseLevel:
+        """Return what was found, without the warning of outliers if they are the shape's.
+
+        They are if more of them goes than is left beside a first result, for which outliers did
+        not count: it tells on which side of a crease a vertex is.
+        """
+        level = max(self.found.sigma if self.noise is None else self.noise, least)
+        normals, low_passes = self.bench.normals[self.sample.vertices], self._low_passes()
+        low = self._chosen(level, normals, low_passes, known=True, caution=CAUTION_ON_SMOOTH)
+        rough = rough_part(self.sample.mesh, self._filtered(self.sample.mesh, low))
+        left, gone = rough.spread**2 - rough.level**2, self.found.spread**2 - rough.spread**2
+        return self.found.explained() if left < _LEFT * gone else self.found
+
+    def choice(self) -> tuple[NoiseLevel, Choice]:
+        """Look, measure the noise beside what is seen, and choose; return what it is known for."""
+        seen, odd = self, bool(self.found.warnings)
+        level = self.found.spread if odd else self.found.sigma
+        sigma = level if self.noise is None else self.noise
+        if sigma <= _ROUNDING * float(self.sample.mesh.edge_lengths.mean()):
+            return self.found, NOTHING
+        known = self.noise is not None or (odd and self.colour is None)
+        normals, low_passes = self.bench.normals[self.sample.vertices], self._low_passes()
+        for _ in range(self.looks):
+            low = seen._chosen(sigma, normals, low_passes, known=known, caution=CAUTION_ON_SMOOTH)
+            clean = self._filtered(self.sample.mesh, low)
+            normals = clean.vertex_normals
+            if seen.colour is not None:
+                seen = seen._beside(seen.colour, clean, low)
+                sigma = seen.found.spread if self.noise is None else self.noise
+            elif self.noise is None:
+                sigma = self._level_beside(clean, low, sigma)
+        filters = low_passes
+        if not self.linear and not odd:
+            filters = with_borders(ALL) if self.on_border else ALL
+        return seen.found, seen._chosen(sigma, normals, filters, known=known)
+
+    def _beside(self, colour: NoiseColour, clean: Mesh, low: Choice) -> Seen:
+        """Return the same with the colour beside a first result."""
+        rows, core = equal_rows(self.sample.mesh), self.sample.core
+
+        def filtered(mesh: Mesh) -> Mesh:
+            return self._filtered(mesh, low)
+
+        return self._of_colour(colour_beside(colour, rows, self.sample.mesh, clean, filtered, core))
+
+    def _low_passes(self) -> tuple[Filter, ...]:
+        low_passes = LINEAR if self.linear else LOW_PASSES
+        return with_borders(low_passes) if self.on_border else low_passes
+
+    def _chosen(
+        self,
+        sigma: float,
+        normals: Floats,
+        filters: tuple[Filter, ...],
+        *,
+        known: bool,
+        caution: float = CAUTION,
+    ) -> Choice:
+        return choose(
+            self.sample,
+            sigma,
+            normals,
+            filters,
+            known=known,
+            caution=caution,
+            evening=self.bench.evening,
+            colour=self.colour,
+        )
+
+    def _filtered(self, mesh: Mesh, choice: Choice) -> Mesh:
+        """Return the filtered mesh, along whose normals the noise is more truly than along its own.
+
+        The estimate of the error needs the directions of the noise. Those of the evened mesh have
+        noise of their own, or have lost the ridges, and agree with some filters more than others.
+        """
+        return mesh.with_vertices(apply(mesh, Bench.of(mesh, self.bench.evening), choice))
+
+    def _level_beside(self, clean: Mesh, low: Choice, sigma: float) -> float:
+        """Return the level beside a first result; the root mean square if some of it is odd."""
+        mesh = self.sample.mesh
+        if self.spikes is not None:
+            for white in _whites(self.spikes):
+                there = mesh.vertices + sigma * white[:, None] * clean.vertex_normals
+                sigma = rough_part(mesh.with_vertices(there), clean).spread
+            return sigma
+        if self.found.warnings:
+            return _level(mesh, clean.vertex_normals).spread
+        return level_beside(mesh, clean, lambda one: self._filtered(one, low))
+
+
+def _level(mesh: Mesh, normals: Floats, spikes: Booleans | None = None) -> NoiseLevel:
+    """Measure it; where there were spikes, by the root mean square: some small ones are left."""
+    A, x, edge = mesh.topology.adjacency, mesh.vertices, float(mesh.edge_lengths.mean())
+    differences = Differences.of(A)
+    found = noise_level(A, x, edge, normals, differences)
+    if spikes is None:
+        return found
+    for white in _whites(spikes):
+        there = x + found.spread * white[:, None] * normals
+        found = noise_level(A, there, edge, normals, differences)
+    return replace(found, sigma=found.spread)
+
+
+def _whites(spikes: Booleans) -> list[Floats]:
+    """Return noise for what was put in the place of spikes, which has none of its own.
+
+    It has to be as strong as the others', whose level is measured with it: so, some times.
+    """
+    white = np.random.default_rng(_SEED).standard_normal(len(spikes)) * spikes
+    return [white] * _TIMES
+
+
+def _height(mesh: Mesh) -> float:
+    """Return the median of the least heights of the faces; infinity, if none has an edge."""
+    i, j, k = mesh.edge_lengths[mesh.topology.face_edges].T
+    longest = np.maximum(np.maximum(i, j), k)
+    kept = longest > 0
+    if not kept.any():
+        return np.inf
+    return float(np.median(2 * mesh.face_areas[kept] / longest[kept]))
