@@ -1,11 +1,13 @@
 """The colour of noise: white noise and clean shapes have none, averaged noise has its own."""
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
 
 from beltrami.diffusion.candidates import Bench, along_normals, filtered
+from beltrami.diffusion.choice import _Trial, sure_share
 from beltrami.diffusion.colour import (
     NoiseColour,
     colour_beside,
@@ -17,6 +19,7 @@ from beltrami.diffusion.denoise import denoise
 from beltrami.diffusion.linear_filters import LINEAR, Linear, low_passed
 from beltrami.diffusion.noise import noise_level
 from beltrami.mesh import shapes
+from beltrami.mesh.mesh import Mesh
 from made_once import creature
 
 BLOB = creature(2500)
@@ -242,6 +245,77 @@ class TestBeside:
         assert 1 < start_of_line(two, 5 * two) < 2  # or is as steep as that
         assert start_of_line(x, 2 * x) == pytest.approx(0, abs=1e-9)
         assert start_of_line(x, 0 * x) == 0
+
+
+class TestChance:
+    """What noise of a colour adds to the difference of two risks."""
+
+    def test_the_deviation_is_that_of_many(self):
+        wheel = np.exp(2j * np.pi * np.arange(30) / 30)
+        flat = np.concatenate([[0], wheel, 2 * wheel])
+        i, j = np.arange(30), (np.arange(30) + 1) % 30
+        faces = [(0 * i, 1 + i, 1 + j), (1 + i, 31 + i, 31 + j), (1 + i, 31 + j, 1 + j)]
+        fan = Mesh(np.stack([flat.real, flat.imag, 0 * flat.real], axis=1),
+                   np.concatenate([np.stack(three, axis=1) for three in faces]))  # fmt: skip
+        rows, degrees = Bench.of(fan).rows, np.diff(fan.topology.adjacency.indptr)
+        assert degrees[0] == 30
+        colour = NoiseColour((2.0, 1.5, 1.0, 0.8, 0.7), (1.0,) * 5, 3.0)
+        random = np.random.default_rng(0)
+        noise = colour.noise(rows, random.standard_normal((fan.n_vertices, 6000)))
+        for f in (degrees == 30, np.abs(flat) > 1, random.normal(size=len(degrees))):
+            found = colour.deviation(rows, degrees, np.float64(f))
+            assert found == pytest.approx((f @ noise).std(), rel=0.06)
+
+    def test_white_noise_is_a_colour_too(self):
+        mesh = shapes.icosphere(3)
+        rows, n = Bench.of(mesh).rows, mesh.n_vertices
+        core = np.arange(n) % 3 > 0
+        x = mesh.vertices + 0.01 * white(mesh, 1)[:, None] * mesh.vertex_normals
+        even = NoiseColour((0.1,) * 5, (1.0,) * 5, 3.0)
+        trial = _Trial(mesh, core, [], 1.0, 1.0, mesh.vertex_normals, None, rows)
+        found = trial.chance(x, mesh.vertices, 0.3)
+        apart = np.linalg.norm((x - mesh.vertices)[core])
+        assert found == pytest.approx(2 * 0.3 * apart / core.sum())
+        # its lowest frequencies are guessed, and no power fits those of white noise
+        other = replace(trial, colour=even).chance(x, mesh.vertices, 0.3)
+        assert other == pytest.approx(found, rel=0.1)
+
+    def test_what_is_smooth_is_more_by_chance(self):
+        mesh = shapes.icosphere(3)
+        rows, core = Bench.of(mesh).rows, np.ones(mesh.n_vertices, np.bool_)
+        low = NoiseColour((2.0, 1.5, 1.0, 0.8, 0.7), (1.0,) * 5, 3.0)
+        trial = _Trial(mesh, core, [], 1.0, 1.0, mesh.vertex_normals, low, rows)
+        smooth, rough = 1.01 * mesh.vertices, moved(mesh, white(mesh, 0.05)).vertices
+        for x, least, most in ((smooth, 2, 9), (rough, 0.9, 1.1)):
+            plain = replace(trial, colour=None).chance(x, mesh.vertices, 0.3)
+            assert least * plain < trial.chance(x, mesh.vertices, 0.3) < most * plain
+
+    @pytest.mark.parametrize("sure", [4.0, 8.0])
+    def test_a_part_of_the_way(self, sure):
+        """From the best of the simple ones to that of all, the shorter the more may be chance."""
+        mesh = moved(ALL[2], averaged(ALL[2], 0.3, own=1 / 7))
+        bench, colour, n = Bench.of(mesh), colour_of(mesh), mesh.n_vertices
+        filters = (Linear(0.3), Linear(0.1), Linear(0.2, True, 0.3), Linear(0.07, True, 0.3))
+        probe = 0.01 * colour.noise(bench.rows, white(mesh, 1)[:, None]) * bench.normals
+        other = mesh.with_vertices(mesh.vertices + probe)
+        here, there = filtered(mesh, bench, filters), filtered(other, bench.moved(other), filters)
+        everywhere, square = np.ones(n, np.bool_), float((probe**2).sum()) / n
+        trial = _Trial(mesh, everywhere, [probe], square, 1.0, bench.normals, colour, bench.rows)
+        sigma = colour.level(bench.rows)
+        (all_of_it, least), (simple, most), (found, _) = (
+            trial.mixture(here, [there], sigma, 2, value) for value in (0.0, 1e9, sure)
+        )
+        assert (simple[2:] == 0).all()
+        assert all_of_it[2:].sum() > 0.1
+        x, y = (np.tensordot(weights, here, 1) for weights in (all_of_it, simple))
+        share = sure_share(most - least, sure * trial.chance(x, y, sigma))
+        assert 0 < share < 1
+        assert found == pytest.approx(share * all_of_it + (1 - share) * simple)
+
+    def test_shares(self):
+        assert sure_share(-1.0, 1.0) == sure_share(0.0, 0.0) == sure_share(0.5, 1.0) == 0
+        assert sure_share(1.0, 0.0) == 1
+        assert sure_share(1.0, 1.0) == pytest.approx(0.75)
 
 
 class TestDenoise:

@@ -72,9 +72,8 @@ def denoise(
     used, whose estimate of the error needs no Gaussian. Then the level is the root mean square,
     outliers included; of noise that is not white (``noise_colour``) it is that of all frequencies,
     measured beside the shape of a first result (``colour_beside``), and the estimate has its
-    covariance. Spikes, single vertices or pairs that are far off, are told
-    in ``spikes``: they are missing data, and the rest is denoised as if it were all, safely if it
-    is odd still.
+    covariance. Spikes, single vertices or pairs that are far off, are told in ``spikes``: they are
+    missing data, and the rest is denoised as if it were all, safely if it is odd still.
 
     Raises
     ------
@@ -101,9 +100,11 @@ def denoise(
     ``predicted_error`` is for σ as it is, and at least σ times the divergence for each vertex, the
     least that a linear filter leaves.
     Filters of normals, the second mixture and the corrections are left out where what they gain may
-    be chance; the corrections also where to fit their 26 weights to the noise may cost more than
-    6 % of the error, or where nearly all filters that were chosen look at normals: faces that those
-    made even would be bent. The ``predicted_error`` does not count what they gain.
+    be chance, which is more for noise that is not white: there the mixture goes a part of the way
+    from low passes that do not look at creases to all of them. The corrections are left out also
+    where to fit their 26 weights to the noise may cost more than 6 % of the error, or where nearly
+    all filters that were chosen look at normals: faces that those made even would be bent. The
+    ``predicted_error`` does not count what they gain.
 
     Sharp features make outliers of the rough part that the level is measured by, as spikes do. On
     200 vertices or more, outliers are the shape's, and are not said, if more of their square goes
@@ -123,8 +124,8 @@ def denoise(
     are all on one side would bend the surface there, so some low passes average a border along
     itself. Where several faces meet at an edge, all are neighbours.
 
-    References: Stein 1981; Luisier, Blu and Unser 2007; Zheng et al. 2011; Zhang et al. 2015; for
-    spikes, Fleishman, Drori and Cohen-Or 2003.
+    References: Stein 1981; James and Stein 1961; Luisier, Blu and Unser 2007; Zheng et al. 2011;
+    Zhang et al. 2015; for spikes, Fleishman, Drori and Cohen-Or 2003.
 
     Examples
     --------
