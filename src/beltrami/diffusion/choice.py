@@ -176,7 +176,10 @@ def sure_share(gain: float, chance: float) -> float:
     >>> [round(sure_share(gain, 2.0), 2) for gain in (0.0, 0.9, 2.0, 10.0)]
     [0.0, 0.0, 0.75, 0.99]
     """
-    return max(1 - (chance / (2 * gain)) ** 2, 0.0) if gain > 0 else 0.0
+    if not gain > 0:
+        return 0.0
+    least = chance / (2 * gain)
+    return max(1 - least * least, 0.0)
 
 
 def choose(
