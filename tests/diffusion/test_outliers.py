@@ -147,14 +147,14 @@ class TestOverlooked:
         n = truth.n_vertices
         return (random.random(n) < 0.1) * random.normal(size=n)
 
-    @pytest.mark.parametrize("seed", [0, 1])
+    @pytest.mark.parametrize("seed", [1, 2])
     def test_they_are_found_once_the_others_are_down(self, seed):
-        torus = SMOOTH["torus"]
+        torus = shapes.torus(48, 24)
         heights = self.spiked(torus, seed)
         mesh = moved(torus, heights)
         found = find_spikes(mesh)
-        missed = heights[~found.found]
-        assert (np.abs(missed) > 0.2).sum() <= 3
+        assert (np.abs(heights[~found.found]) < 0.2).all()
+        assert found.error < 0.005 * torus.edge_lengths.mean()
         assert rms(denoise(mesh).mesh, torus) < 0.06 * rms(mesh, torus)
 
     @pytest.mark.parametrize("name", ["cube", "can", "box"])
