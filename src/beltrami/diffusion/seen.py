@@ -32,7 +32,6 @@ _BORDERS = 0.01  # of the vertices, below which they matter less than what more 
 _LOOKS, _LOOKS_IF_STRONG = 1, 2  # at the normals, before the choice
 _STRONG_BESIDE = 0.77  # of the least height of half of the faces, of the noisy mesh
 _TIMES = 2  # that the level is measured without spikes
-_FAINTEST = 1e-3  # mean edges, that noise is taken for beside the outliers of a shape
 _ROUNDING = 1e-9  # mean edges, up to which there is no noise
 _LEFT = 0.55  # of the square that goes beside a first result, of outliers that are the shape's
 _SEED = 12
@@ -120,7 +119,7 @@ class Seen:
         if colour is not None:
             return seen._of_colour(colour)
         if found.has_outliers and mesh.n_vertices >= SMALL:
-            return replace(seen, found=seen._explained(_FAINTEST * edge))
+            return replace(seen, found=seen._explained())
         return seen
 
     def _first_colour(self, edge: float) -> NoiseColour | None:
@@ -136,13 +135,13 @@ class Seen:
         found = with_colour(self.measured, colour, equal_rows(self.sample.mesh))
         return replace(self, colour=colour, found=found)
 
-    def _explained(self, least: float) -> NoiseLevel:
+    def _explained(self) -> NoiseLevel:
         """Return what was found, without the warning of outliers if they are the shape's.
 
-        They are if more of them goes than is left beside a first result, for which outliers did
-        not count: it tells on which side of a crease a vertex is.
+        They are if more of them goes than is left beside a first result, which tells on which side
+        of a crease a vertex is.
         """
-        level = max(self.found.sigma if self.noise is None else self.noise, least)
+        level = self.found.spread
         normals, low_passes = self.bench.normals[self.sample.vertices], self._low_passes()
         low = self._chosen(level, normals, low_passes, known=True, caution=CAUTION_ON_SMOOTH)
         rough = rough_part(self.sample.mesh, self._filtered(self.sample.mesh, low))
