@@ -404,6 +404,17 @@ class TestNoiseOfOtherKinds:
         mesh, _ = noisy(truth, 0.1)
         assert not denoise(mesh).warnings
 
+    def test_its_level_is_measured_beside_creases_too(self):
+        """Plain differences are off by a twelfth here: thin faces and folds spoil the normals."""
+        flat = shapes.grid(100, 20, dimension=3)
+        x, y, _ = flat.vertices.T
+        folds = 0.1 * np.abs((8 * x) % 2 - 1)
+        truth = flat.with_vertices(np.stack([x, 2.5 * y, folds], axis=1))
+        mesh, sigma = noisy(truth, 0.3)
+        found = denoise(mesh)
+        assert any("strong beside the faces" in text for text in found.warnings)
+        assert found.sigma == pytest.approx(sigma, rel=0.04)
+
     @pytest.mark.parametrize("white", [0.0, 0.15])
     def test_spikes_are_missing_data(self, white):
         """They leave half of what the best linear filter leaves, and less."""

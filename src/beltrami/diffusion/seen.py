@@ -213,14 +213,14 @@ class Seen:
         return mesh.with_vertices(apply(mesh, Bench.of(mesh, self.bench.evening), choice))
 
     def _level_beside(self, clean: Mesh, low: Choice, sigma: float) -> float:
-        """Return the level beside a first result; the root mean square if some of it is odd."""
+        """Return the level beside a first result; the root mean square where outliers are noise."""
         mesh = self.sample.mesh
         if self.spikes is not None:
             for white in _whites(self.spikes):
                 there = mesh.vertices + sigma * white[:, None] * clean.vertex_normals
                 sigma = rough_part(mesh.with_vertices(there), clean).spread
             return sigma
-        if self.found.warnings:
+        if self.found.has_outliers or self.found.relative > STRONG:
             return _level(mesh, clean.vertex_normals).spread
         return level_beside(mesh, clean, lambda one: self._filtered(one, low))
 
