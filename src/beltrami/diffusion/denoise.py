@@ -69,10 +69,10 @@ def denoise(
     -------
     Denoised: the mesh first. If the noise does not look white and Gaussian, or is very strong, or
     strong beside long thin faces, which it folds, ``warnings`` say so, and only low passes are
-    used, whose estimate of the error needs no Gaussian. The level of noise that has outliers or is
-    very strong is the root mean square; of noise that is not white (``noise_colour``) it is that of
-    all frequencies, measured beside the shape of a first result (``colour_beside``), and the
-    estimate has its covariance. Spikes, single vertices or pairs that are far off, are told in
+    used, whose estimate of the error needs no Gaussian. The level of noise that is odd is the root
+    mean square, but where it only folds faces; of noise that is not white (``noise_colour``) it is
+    that of all frequencies, measured beside the shape of a first result (``colour_beside``), and
+    the estimate has its covariance. Spikes, single vertices or pairs that are far off, are told in
     ``spikes``: they are missing data, and the rest is denoised as if it were all, safely if it is
     odd still.
 

@@ -57,8 +57,9 @@ class Seen:
         Vertices of the largest component.
     looks
         At the normals, before the choice.
-    linear, on_border
-        Whether only linear filters are asked for, and whether borders matter.
+    linear, on_border, folds
+        Whether only linear filters are trusted, whether borders matter, and whether a warning says
+        that the noise is strong beside the faces.
     """
 
     noise: float | None
@@ -72,6 +73,7 @@ class Seen:
     looks: int
     linear: bool
     on_border: bool
+    folds: bool
 
     @classmethod
     def of(
@@ -93,7 +95,8 @@ class Seen:
         if found.relative > STRONG or beside:
             bench, looks = bench.moved(mesh, EVENING_IF_STRONG), _LOOKS_IF_STRONG
             found = _level(mesh, bench.normals, spikes)
-        if beside and not found.relative > STRONG:
+        folds = beside and not found.relative > STRONG
+        if folds:
             told = (
                 f"the noise is strong beside the faces, whose median height is {height / edge:.2f}"
             )
@@ -114,6 +117,7 @@ class Seen:
             looks,
             linear or mesh.n_vertices < SMALL,
             float(mesh.topology.on_boundary[sample.vertices[sample.core]].mean()) > _BORDERS,
+            folds,
         )
         colour = seen._first_colour(edge)
         if colour is not None:
@@ -213,14 +217,14 @@ class Seen:
         return mesh.with_vertices(apply(mesh, Bench.of(mesh, self.bench.evening), choice))
 
     def _level_beside(self, clean: Mesh, low: Choice, sigma: float) -> float:
-        """Return the level beside a first result; the root mean square where outliers are noise."""
+        """Return the level beside a first result; the root mean square of noise that is odd."""
         mesh = self.sample.mesh
         if self.spikes is not None:
             for white in _whites(self.spikes):
                 there = mesh.vertices + sigma * white[:, None] * clean.vertex_normals
                 sigma = rough_part(mesh.with_vertices(there), clean).spread
             return sigma
-        if self.found.has_outliers or self.found.relative > STRONG:
+        if len(self.found.warnings) > self.folds:  # it is odd in another way too
             return _level(mesh, clean.vertex_normals).spread
         return level_beside(mesh, clean, lambda one: self._filtered(one, low))
 
