@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
 from numpy.polynomial import Chebyshev
 
-from beltrami._arrays import Booleans, Floats, Integers
+from beltrami._arrays import Booleans, Floats, Integers, read_only
 from beltrami.diffusion.averaging_series import filter_rows, filter_rows_by
 from beltrami.diffusion.noise import NoiseLevel
 from beltrami.mesh.mesh import Mesh
@@ -140,7 +140,8 @@ def noise_colour(rows: LocalRows, x: Floats, normals: Floats, core: Booleans) ->
     Cost: O(n), some 400 products with W̃.
     """
     levels, uneven, kurtosis = [], [], 3.0
-    for i, (found, alike, gain) in enumerate(_bands(rows, x, normals)):
+    bands = zip(_bands(rows, x, normals), _white_bands(rows), strict=True)
+    for i, (found, (alike, gain)) in enumerate(bands):
         (quiet, rough), (white_quiet, white_rough) = (
             np.sqrt(np.quantile(_around(rows, _cut(f**2 / gain))[core], (_QUIET, _ROUGH)))
             for f in (found, alike)
@@ -189,9 +190,11 @@ def colour_beside(
 
     Notes
     -----
-    Cost: O(n), up to four times some 1000 products with W̃, and one run of the filter.
+    Cost: O(n), some 400 products with W̃, and up to four times some 300 and one run of the
+    filter.
     """
-    found = _beside(rows, mesh, clean, core)
+    gains = [gain for _, gain in _white_bands(rows)]
+    found = _beside(rows, gains, mesh, clean, core)
     if not found.min() > 0:
         return colour
     even = replace(colour, levels=tuple(found.tolist()), uneven=(1.0,) * len(found))
@@ -200,22 +203,21 @@ def colour_beside(
     for _ in range(min(_MOST_DRAWS, math.ceil(_DRAWN / len(core)))):
         noise = even.noise(rows, random.standard_normal((len(core), 1)))
         again = mesh.with_vertices(clean.vertices + noise * clean.vertex_normals)
-        seen += _beside(rows, again, filtered(again), core) ** 2
-        bands = _bands(rows, noise, np.ones_like(noise))
-        true += [float((f[core] ** 2).sum() / gain[core].sum()) for f, _, gain in bands]
+        seen += _beside(rows, gains, again, filtered(again), core) ** 2
+        bands = zip(_bands(rows, noise, np.ones_like(noise)), gains, strict=True)
+        true += [float((f[core] ** 2).sum() / gain[core].sum()) for f, gain in bands]
     more = np.sqrt(true / np.maximum(seen, true / _MOST_MORE**2))
     return replace(even, levels=tuple((found * more).tolist()))
 
 
-def _beside(rows: LocalRows, mesh: Mesh, clean: Mesh, core: Booleans) -> Floats:
+def _beside(
+    rows: LocalRows, gains: list[Floats], mesh: Mesh, clean: Mesh, core: Booleans
+) -> Floats:
     """Return the levels of the bands where the first result has nothing."""
-    normals = clean.vertex_normals
-    pairs = zip(
-        _bands(rows, mesh.vertices, normals), _bands(rows, clean.vertices, normals), strict=True
-    )
+    both = (_bands(rows, one.vertices, clean.vertex_normals) for one in (mesh, clean))
     starts = [
         start_of_line(_around(rows, g**2 / gain)[core], _around(rows, _cut(f**2 / gain))[core])
-        for (f, _, gain), (g, _, _) in pairs
+        for f, g, gain in zip(*both, gains, strict=True)
     ]
     return np.sqrt(starts)
 
@@ -246,14 +248,16 @@ def start_of_line(x: Floats, y: Floats) -> float:
     return start
 
 
-def _bands(rows: LocalRows, x: Floats, normals: Floats) -> Iterator[tuple[Floats, Floats, Floats]]:
-    """Yield x in each band, along the normals, white noise alike, and the mean square of that."""
-    white = np.random.default_rng(_SEED).standard_normal((len(x), _WHITE))
-    series = [np.array(_series(i)) for i in range(len(_EXPONENTS))]
-    both = (filter_rows_by(rows, values, series) for values in (x, white))
-    for moved, alike in zip(*both, strict=True):
-        gain = np.maximum(_around(rows, (alike**2).mean(axis=1)), np.finfo(float).tiny)
-        yield np.einsum("ij,ij->i", moved, normals), alike[:, 0], gain
+def _white_bands(rows: LocalRows) -> list[tuple[Floats, Floats]]:
+    """Return white noise in each band, and its mean square around the vertices."""
+    white = np.random.default_rng(_SEED).standard_normal((len(rows.order), _WHITE))
+    alike, least = filter_rows_by(rows, white, _series()), np.finfo(float).tiny
+    return [(f[:, 0], np.maximum(_around(rows, (f**2).mean(axis=1)), least)) for f in alike]
+
+
+def _bands(rows: LocalRows, x: Floats, normals: Floats) -> list[Floats]:
+    """Return x in each band, along the normals."""
+    return [np.einsum("ij,ij->i", f, normals) for f in filter_rows_by(rows, x, _series())]
 
 
 def with_colour(found: NoiseLevel, colour: NoiseColour, rows: LocalRows) -> NoiseLevel:
@@ -277,12 +281,15 @@ def _around(rows: LocalRows, values: Floats) -> Floats:
 
 
 @cache
-def _series(i: int) -> tuple[float, ...]:
-    a, b = _EXPONENTS[i]
-    peak = _PEAKS[i]
-    fall = (2 - peak) or 1.0
-    series = Chebyshev.interpolate(lambda x: ((1 - x) / peak) ** a * ((1 + x) / fall) ** b, a + b)
-    return tuple(np.asarray(series.coef, np.float64).tolist())
+def _series() -> tuple[Floats, ...]:
+    """Return the coefficients of the gains of all bands."""
+
+    def gain(x: Floats, a: int, b: int) -> Floats:
+        peak = 2 * a / (a + b)
+        return np.asarray(((1 - x) / peak) ** a * ((1 + x) / ((2 - peak) or 1.0)) ** b)
+
+    series = (Chebyshev.interpolate(gain, a + b, args=(a, b)) for a, b in _EXPONENTS)
+    return tuple(read_only(np.asarray(one.coef, np.float64)) for one in series)
 
 
 @cache
