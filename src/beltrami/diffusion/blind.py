@@ -55,7 +55,9 @@ def blind_choice(mesh: Mesh, noise: float | None, size: int, *, linear: bool = F
     if noise is None and seen.largest < FEW:
         told = replace(seen.found, warnings=(_TOO_FEW,))
         return Blind(told, NOTHING, seen.bench, mesh, none, 0.0)
-    if noise is None and not linear and seen.found.has_outliers and seen.largest >= SMALL:
+    # noise that has a colour is nearly Gaussian: to take it for spikes would leave most of it
+    odd = seen.found.has_outliers and seen.colour is None and seen.largest >= SMALL
+    if odd and noise is None and not linear:
         spikes = find_spikes(mesh)
         if spikes is not None:
             return _without(spikes, seen, size)

@@ -110,12 +110,14 @@ def denoise(
     Sharp features make outliers of the rough part that the level is measured by, as spikes do. On
     200 vertices or more, outliers are the shape's, and are not said, if more of their square goes
     beside a first result than is left: it tells on which side of a crease a vertex is
-    (``rough_part``). Else spikes are looked for, but not with ``noise`` or ``"linear"``
-    (``beltrami.diffusion.spikes``). Their places are filled, from the vertices around and along the
-    normals of the result; the level is that of the others, root mean square.
+    (``rough_part``). Else spikes are looked for, but not with ``noise`` or ``"linear"``, nor upon
+    noise that is not white (``beltrami.diffusion.spikes``). Their places are filled, from the
+    vertices around and along the normals of the result; the level is that of the others, root mean
+    square.
 
-    A shape that has details in the middle frequencies, evenly all over, is not told from noise
-    that is not white: so are some coarse meshes. ``noise`` tells.
+    A coarse shape may have details in the middle frequencies, evenly all over, as noise that is not
+    white has them. It is told by how it bends: to one side, or little where edges are long
+    (``bends_as_shape``). Smooth details upon it may be taken for shape. ``noise`` tells.
 
     Components of at least 1000 vertices, the eight largest, have a noise level and mixtures of
     their own; the others are denoised as one, but for those of less than 40, which stay as they are

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from beltrami._arrays import Booleans, Floats
+from beltrami.diffusion.bends import bends_as_shape
 from beltrami.diffusion.candidates import EVENING_IF_STRONG, Bench, Filter
 from beltrami.diffusion.choice import (
     ALL,
@@ -121,7 +123,9 @@ class Seen:
         )
         colour = seen._first_colour(edge)
         if colour is not None:
-            return seen._of_colour(colour)
+            coloured = seen._of_colour(colour)
+            if not coloured._is_shape(colour):
+                return coloured
         if found.has_outliers and mesh.n_vertices >= SMALL:
             return replace(seen, found=seen._explained())
         return seen
@@ -138,6 +142,17 @@ class Seen:
     def _of_colour(self, colour: NoiseColour) -> Seen:
         found = with_colour(self.measured, colour, equal_rows(self.sample.mesh))
         return replace(self, colour=colour, found=found)
+
+    def _is_shape(self, colour: NoiseColour) -> bool:
+        """Whether what has this colour bends as shapes do."""
+        normals, low_passes = self.bench.normals[self.sample.vertices], self._low_passes()
+        level, mesh = self.found.spread, self.sample.mesh
+        low = self._chosen(level, normals, low_passes, known=False, caution=CAUTION_ON_SMOOTH)
+        clean, rows = self._filtered(mesh, low), equal_rows(mesh)
+        alike = colour_beside(
+            colour, rows, mesh, clean, lambda one: self._filtered(one, low), self.sample.core
+        )
+        return bends_as_shape(mesh, clean, partial(alike.noise, rows))
 
     def _explained(self) -> NoiseLevel:
         """Return what was found, without the warning of outliers if they are the shape's.

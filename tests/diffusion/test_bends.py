@@ -1,0 +1,200 @@
+"""How a mesh bends: convex or concave, along its edges or across, and what that tells of noise."""
+
+import numpy as np
+import pytest
+from scipy.stats import spearmanr
+
+from beltrami.diffusion.averaging_series import filter_rows
+from beltrami.diffusion.bends import Bends, _ranks, bends_as_shape
+from beltrami.diffusion.denoise import denoise
+from beltrami.diffusion.linear_filters import equal_rows
+from beltrami.mesh import shapes
+from beltrami.mesh.mesh import Mesh
+from made_once import creature
+
+BALL = shapes.icosphere(4)
+SERIES = np.array([1.0, 1.0])  # Id + W̃
+
+
+def smooth(mesh, white):
+    """Noise (n, 1) of an even size from white noise: each value is the mean over two rings."""
+    rows = equal_rows(mesh)
+    for _ in range(3):
+        white = filter_rows(rows, white, SERIES / 2)
+    return white / 0.35
+
+
+def bumpy(mesh, height, seed=0):
+    white = np.random.default_rng(seed).standard_normal((mesh.n_vertices, 1))
+    way = height * mesh.edge_lengths.mean() * smooth(mesh, white)
+    return mesh.with_vertices(mesh.vertices + way * mesh.vertex_normals)
+
+
+def pairs(mesh):
+    """The corners of each pair of faces that share an edge: its ends, and the other two."""
+    of_edge = {}
+    for face in mesh.faces.tolist():
+        for c in range(3):
+            ends = face[(c + 1) % 3], face[(c + 2) % 3]
+            of_edge.setdefault(frozenset(ends), []).append((*ends, face[c]))
+    return [(*two[0], two[1][2]) for two in of_edge.values() if len(two) == 2]
+
+
+def angles(x, quads):
+    """Of the normals of the faces (i, j, k), (j, i, other); positive where the edge is convex."""
+    i, j, k, other = x[np.array(quads).T]
+    n, m = np.cross(j - i, k - i), np.cross(i - j, other - j)
+    size = np.linalg.norm(n, axis=1) * np.linalg.norm(m, axis=1)
+    angle = np.arccos(np.clip((n * m).sum(axis=1) / size, -1, 1))
+    return np.where((n * (other - i)).sum(axis=1) < 0, angle, -angle)
+
+
+def pleated(seed=2):
+    """A square whose quads are flat: pleats along both sides, whose heights are added."""
+    square, random = shapes.grid(50, 50, dimension=3), np.random.default_rng(seed)
+    height = np.zeros(square.n_vertices)
+    for axis in (0, 1):
+        line = random.standard_normal(60)
+        line = (np.roll(line, 1) + 2 * line + np.roll(line, -1)) / 4
+        height += (line / line.std())[np.rint(50 * square.vertices[:, axis]).astype(int)]
+    way = 0.2 * square.edge_lengths.mean() * height
+    return square.with_vertices(square.vertices + way[:, None] * square.vertex_normals)
+
+
+def rms(mesh, truth):
+    return np.sqrt(((mesh.vertices - truth.vertices) ** 2).sum(axis=1).mean())
+
+
+class TestBends:
+    def test_of_shapes_whose_bends_are_known(self):
+        assert Bends.of(BALL).convex == 1
+        assert Bends.of(shapes.cube(1)).convex == pytest.approx(12 / 18)  # six diagonals are flat
+        inside_out = Mesh(BALL.vertices, BALL.faces[:, ::-1])
+        assert Bends.of(inside_out).convex == -1
+
+    def test_what_is_flat_bends_to_no_side(self):
+        square = shapes.grid(15, 15, dimension=3)
+        assert Bends.of(square) == Bends(0, 0)
+        turn = np.linalg.qr(np.random.default_rng(0).standard_normal((3, 3)))[0]
+        assert Bends.of(square.with_vertices(square.vertices @ turn)).convex == 0  # but rounding
+        # pleats that are added are flat in each quad: a third of the edges, and on no side
+        assert Bends.of(pleated()).along < -0.6
+
+    def test_nothing_is_beside_a_single_face(self):
+        assert Bends.of(Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])) == Bends(0, 0)
+
+    @pytest.mark.parametrize("seed", range(3))
+    def test_as_ten_lines_of_numpy(self, seed):
+        mesh = bumpy(creature(600), 0.3, seed)
+        quads = np.array(pairs(mesh))
+        i, j, k, other = mesh.vertices[quads.T]
+        ratio = np.linalg.norm(i - j, axis=1) / np.linalg.norm(k - other, axis=1)
+        angle = angles(mesh.vertices, quads)
+        found = Bends.of(mesh)
+        assert found.convex == pytest.approx(np.sign(angle).mean())
+        assert found.along == pytest.approx(spearmanr(np.abs(angle), ratio).statistic)
+
+    def test_equal_ranks_are_shared(self):
+        assert _ranks(np.array([7.0, 1.0, 7.0, 9.0])).tolist() == [0, -1.5, 0, 1.5]
+        square = shapes.grid(9, 9, dimension=3)
+        height = np.random.default_rng(0).integers(0, 2, square.n_vertices)
+        mesh = square.with_vertices(square.vertices + 0.125 * height[:, None] * [0, 0, 1.0])
+        i, j, k, other = mesh.vertices[np.array(pairs(mesh)).T]
+        ratio = np.linalg.norm(i - j, axis=1) / np.linalg.norm(k - other, axis=1)
+        angle = np.abs(angles(mesh.vertices, pairs(mesh)))
+        expected = spearmanr(angle.round(12), ratio.round(12)).statistic
+        assert Bends.of(mesh).along == pytest.approx(expected, abs=0.02)
+
+    def test_faces_that_disagree_are_compared_as_if_they_agreed(self):
+        mesh = bumpy(BALL, 0.3)
+        faces = mesh.faces.copy()
+        faces[5] = faces[5, ::-1]
+        # its own three edges are seen from its other side: concave for convex
+        found, one = Bends.of(Mesh(mesh.vertices, faces)), Bends.of(mesh)
+        assert found.along == pytest.approx(one.along)
+        assert abs(found.convex - one.convex) <= 6 / mesh.n_edges
+
+    def test_faces_without_an_area_bend_to_no_side(self):
+        """A side that was opened to a face of no width."""
+        mesh = bumpy(creature(600), 0.3)
+        i, j, k = mesh.faces[0].tolist()
+        n = mesh.n_vertices
+        faces = np.vstack([mesh.faces[1:], [[n, j, k], [n, k, i], [i, j, n]]])
+        more, one = (
+            Bends.of(Mesh(np.vstack([mesh.vertices, mesh.vertices[i]]), faces)),
+            Bends.of(mesh),
+        )
+        assert more.convex == pytest.approx(one.convex, abs=3 / mesh.n_edges)
+        assert more.along == pytest.approx(one.along, abs=0.01)
+
+    @pytest.mark.parametrize("unit", [1e-9, 1e9])
+    def test_the_unit_does_not_matter(self, unit):
+        mesh = bumpy(BALL, 0.3)
+        one, other = Bends.of(mesh), Bends.of(mesh.with_vertices(unit * mesh.vertices))
+        assert other.convex == one.convex
+        assert other.along == pytest.approx(one.along)
+
+
+class TestShapeOrNoise:
+    """``clean`` is the smooth shape, and noise is alike."""
+
+    @staticmethod
+    def noise(mesh, height):
+        return lambda white: height * mesh.edge_lengths.mean() * smooth(mesh, white)
+
+    @pytest.mark.parametrize("seed", range(5))
+    @pytest.mark.parametrize("height", [0.1, 0.3])
+    def test_noise_is_none(self, seed, height):
+        for clean in (BALL, shapes.torus(60, 40), creature(1600)):
+            mesh = bumpy(clean, height, seed)
+            assert not bends_as_shape(mesh, clean, self.noise(clean, height))
+
+    def test_flat_quads_are_shape(self):
+        square = shapes.grid(50, 50, dimension=3)
+        assert bends_as_shape(pleated(), square, self.noise(square, 0.3))
+
+    @pytest.mark.parametrize("side", [1, -1])
+    def test_bumps_to_one_side_are_shape(self, side):
+        square = shapes.grid(50, 50, dimension=3)
+        white = np.random.default_rng(0).standard_normal((square.n_vertices, 1))
+        way = side * 0.2 * square.edge_lengths.mean() * np.exp(smooth(square, white))
+        mesh = square.with_vertices(square.vertices + way * square.vertex_normals)
+        assert bends_as_shape(mesh, square, self.noise(square, 0.3))
+
+    def test_only_what_lies_along_the_edges_more_than_noise_is(self):
+        """Pleats for noise: bumps without them are no shape for that."""
+        square = shapes.grid(50, 50, dimension=3)
+        pleats = (pleated().vertices - square.vertices)[:, 2:]
+        assert not bends_as_shape(bumpy(square, 0.3), square, lambda white: pleats)
+
+    def test_nothing_bends(self):
+        flat = shapes.grid(40, 40, dimension=3)
+        assert not bends_as_shape(flat, flat, np.zeros_like)
+
+
+class TestDenoise:
+    def test_pleats_of_flat_quads_are_no_noise(self):
+        """They are as even, and as strong in the middle, as averaged noise."""
+        mesh = pleated()
+        seen = denoise(mesh)
+        assert not seen.warnings
+        assert rms(seen.mesh, mesh) < 0.02 * mesh.edge_lengths.mean()
+
+    def test_bumps_alike_are(self):
+        square = shapes.grid(50, 50, dimension=3)
+        mesh = bumpy(square, 0.3)
+        found = denoise(mesh)
+        assert any("not white" in text for text in found.warnings)
+        assert rms(found.mesh, square) < 0.3 * rms(mesh, square)
+
+    @pytest.mark.parametrize("share", [0.005, 0.02])
+    def test_a_few_spikes_upon_noise_with_a_colour(self, share):
+        truth = creature(2500)
+        random = np.random.default_rng(4)
+        mesh = bumpy(truth, 0.3)
+        spikes = (random.random(truth.n_vertices) < share) * truth.edge_lengths.mean()
+        mesh = mesh.with_vertices(mesh.vertices + spikes[:, None] * truth.vertex_normals)
+        found = denoise(mesh)
+        assert any("not white" in text for text in found.warnings)
+        assert not len(found.spikes)
+        assert rms(found.mesh, truth) < 0.8 * rms(mesh, truth)
