@@ -5,9 +5,10 @@ import pytest
 from scipy.stats import spearmanr
 
 from beltrami.diffusion.averaging_series import filter_rows
-from beltrami.diffusion.bends import Bends, _ranks, bends_as_shape
+from beltrami.diffusion.bends import Bends, _ranks, unlike_noise
 from beltrami.diffusion.denoise import denoise
 from beltrami.diffusion.linear_filters import equal_rows
+from beltrami.diffusion.noise import STRONG
 from beltrami.mesh import shapes
 from beltrami.mesh.mesh import Mesh
 from made_once import creature
@@ -49,15 +50,16 @@ def angles(x, quads):
     return np.where((n * (other - i)).sum(axis=1) < 0, angle, -angle)
 
 
-def pleated(seed=2):
+def pleated(seed=2, height=0.2, rounds=1):
     """A square whose quads are flat: pleats along both sides, whose heights are added."""
     square, random = shapes.grid(50, 50, dimension=3), np.random.default_rng(seed)
-    height = np.zeros(square.n_vertices)
+    sum_of_both = np.zeros(square.n_vertices)
     for axis in (0, 1):
         line = random.standard_normal(60)
-        line = (np.roll(line, 1) + 2 * line + np.roll(line, -1)) / 4
-        height += (line / line.std())[np.rint(50 * square.vertices[:, axis]).astype(int)]
-    way = 0.2 * square.edge_lengths.mean() * height
+        for _ in range(rounds):
+            line = (np.roll(line, 1) + 2 * line + np.roll(line, -1)) / 4
+        sum_of_both += (line / line.std())[np.rint(50 * square.vertices[:, axis]).astype(int)]
+    way = height * square.edge_lengths.mean() * sum_of_both
     return square.with_vertices(square.vertices + way[:, None] * square.vertex_normals)
 
 
@@ -147,11 +149,11 @@ class TestShapeOrNoise:
     def test_noise_is_none(self, seed, height):
         for clean in (BALL, shapes.torus(60, 40), creature(1600)):
             mesh = bumpy(clean, height, seed)
-            assert not bends_as_shape(mesh, clean, self.noise(clean, height))
+            assert unlike_noise(mesh, clean, self.noise(clean, height)) <= 1
 
     def test_flat_quads_are_shape(self):
         square = shapes.grid(50, 50, dimension=3)
-        assert bends_as_shape(pleated(), square, self.noise(square, 0.3))
+        assert unlike_noise(pleated(), square, self.noise(square, 0.3)) > 1
 
     @pytest.mark.parametrize("side", [1, -1])
     def test_bumps_to_one_side_are_shape(self, side):
@@ -159,17 +161,69 @@ class TestShapeOrNoise:
         white = np.random.default_rng(0).standard_normal((square.n_vertices, 1))
         way = side * 0.2 * square.edge_lengths.mean() * np.exp(smooth(square, white))
         mesh = square.with_vertices(square.vertices + way * square.vertex_normals)
-        assert bends_as_shape(mesh, square, self.noise(square, 0.3))
+        assert unlike_noise(mesh, square, self.noise(square, 0.3)) > 1
 
     def test_only_what_lies_along_the_edges_more_than_noise_is(self):
         """Pleats for noise: bumps without them are no shape for that."""
         square = shapes.grid(50, 50, dimension=3)
         pleats = (pleated().vertices - square.vertices)[:, 2:]
-        assert not bends_as_shape(bumpy(square, 0.3), square, lambda white: pleats)
+        assert unlike_noise(bumpy(square, 0.3), square, lambda white: pleats) <= 1
 
     def test_nothing_bends(self):
         flat = shapes.grid(40, 40, dimension=3)
-        assert not bends_as_shape(flat, flat, np.zeros_like)
+        assert unlike_noise(flat, flat, np.zeros_like) == 0
+
+    def test_the_more_noise_the_less_unlike(self):
+        square = shapes.grid(50, 50, dimension=3)
+        mesh, edge = pleated(), square.edge_lengths.mean()
+
+        def unlike(level):
+            white = np.random.default_rng(1).standard_normal((square.n_vertices, 1))
+            there = mesh.with_vertices(mesh.vertices + level * edge * white * [0, 0, 1])
+            spread = edge * np.hypot(0.2, level)
+            return unlike_noise(there, square, lambda white: spread * white)
+
+        found = [unlike(level) for level in (0, 0.1, 0.2, 0.4, 1.6)]
+        assert found == sorted(found, reverse=True)
+        assert found[0] > 5
+        assert found[-1] < 0.7
+
+    @pytest.mark.parametrize("n", [5, 8, 12])
+    def test_on_few_vertices_noise_is_none_either(self, n):
+        """Their bends are off by chance, which is measured."""
+        mesh = shapes.torus(2 * n, n)
+        edge, found = mesh.edge_lengths.mean(), []
+        for seed in range(20):
+            white = np.random.default_rng(seed).standard_normal((mesh.n_vertices, 1))
+            there = mesh.with_vertices(mesh.vertices + 0.2 * edge * white * mesh.vertex_normals)
+            found.append(unlike_noise(there, mesh, lambda white: 0.2 * edge * white))
+        assert np.mean(np.array(found) > 1) <= 0.1
+
+
+def warts(mesh, steepness, height):
+    """Tall ones and small ones, all over."""
+    white = np.random.default_rng(0).standard_normal((mesh.n_vertices, 1))
+    way = np.exp(steepness * smooth(mesh, white))
+    way *= height * mesh.edge_lengths.mean() / way.std()
+    return mesh.with_vertices(mesh.vertices + way * mesh.vertex_normals)
+
+
+def gear():
+    """A cylinder of eighty sides with four teeth, all of whose vertices are on creases."""
+    bar = shapes.cylinder(80, 2, caps=True)
+    x, y, z = bar.vertices.T
+    tooth = np.where(np.hypot(x, y) > 0.5, np.sign(np.sin(20 * np.arctan2(y, x) + 0.3)), 0)
+    return bar.with_vertices(np.column_stack([x, y, z]) * np.array([1, 1, 0])
+                             * (1 + 0.15 * tooth)[:, None] + np.outer(z, [0, 0, 1]))  # fmt: skip
+
+
+def cogs():
+    """A cylinder of eighty sides, every second of whose edges is nearer to the axis."""
+    bar = shapes.cylinder(80, 2, caps=True)
+    x, y, z = bar.vertices.T
+    side = np.rint(np.arctan2(y, x) / (np.pi / 40)).astype(int) % 2
+    wide = np.where(np.hypot(x, y) > 0.5, np.where(side == 0, 1.1, 0.9), 1)
+    return bar.with_vertices(np.column_stack([x * wide, y * wide, z]))
 
 
 class TestDenoise:
@@ -179,6 +233,50 @@ class TestDenoise:
         seen = denoise(mesh)
         assert not seen.warnings
         assert rms(seen.mesh, mesh) < 0.02 * mesh.edge_lengths.mean()
+
+    @pytest.mark.parametrize(
+        ("shape", "most"), [(gear(), 0.002), (shapes.cube(4), 0.003), (shapes.icosphere(2), 0.002)]
+    )
+    def test_clean_shapes_of_few_vertices_stay(self, shape, most):
+        found = denoise(shape)
+        assert not found.warnings
+        assert rms(found.mesh, shape) < most * shape.edge_lengths.mean()
+
+    @pytest.mark.parametrize("height", [0.6, 1])
+    def test_sharp_pleats_are_no_strong_noise(self, height):
+        mesh = pleated(3, height, rounds=0)
+        found = denoise(mesh)
+        assert found.noise.relative > STRONG
+        assert not found.warnings
+        assert rms(found.mesh, mesh) < 0.03 * mesh.edge_lengths.mean()
+
+    def test_long_thin_faces_are_not_folded_by_noise(self):
+        mesh = cogs()
+        found = denoise(mesh)
+        assert found.noise.sigma > 0.3 * mesh.edge_lengths.mean()
+        assert not found.warnings
+        assert rms(found.mesh, mesh) < 0.01 * mesh.edge_lengths.mean()
+
+    @pytest.mark.parametrize(("shape", "steepness"), [(BALL, 1.5), (shapes.torus(60, 40), 2)])
+    def test_warts_are_no_outliers_of_the_noise(self, shape, steepness):
+        mesh = warts(shape, steepness, 0.2)
+        found = denoise(mesh)
+        assert not found.warnings
+        assert not len(found.spikes)
+        assert rms(found.mesh, mesh) < 0.05 * mesh.edge_lengths.mean()
+
+    def test_faint_spikes_on_folds_are_outliers_of_the_noise(self):
+        """More of them goes beside a first result than of spikes on smooth shapes."""
+        ball = shapes.icosphere(5)
+        x, y, z = ball.vertices.T
+        way = 0.03 * (1.5 + z) * np.sin(24 * x) * np.sin(24 * y)
+        truth = ball.with_vertices(ball.vertices * (1 + way)[:, None])
+        random, n = np.random.default_rng(1), truth.n_vertices
+        noise = 0.03 * random.standard_normal(n)
+        noise += (random.random(n) < 0.01) * 0.3 * random.choice([-1, 1], n)
+        way = truth.edge_lengths.mean() * noise[:, None] * truth.vertex_normals
+        found = denoise(truth.with_vertices(truth.vertices + way))
+        assert any("outliers" in text for text in found.warnings)
 
     def test_bumps_alike_are(self):
         square = shapes.grid(50, 50, dimension=3)

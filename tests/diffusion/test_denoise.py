@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from beltrami.diffusion.bends import unlike_noise
 from beltrami.diffusion.candidates import EVENING, Bench, OfNormals, along_normals, filtered
 from beltrami.diffusion.choice import apply, choose
 from beltrami.diffusion.denoise import denoise
@@ -321,7 +322,10 @@ def test_where_the_shape_is_smooth_the_level_is_found_better(level):
     mesh = noisy(CUBE, level)[0]
     detailed = denoise(mesh, "linear")
     clean, low_pass = first_result(mesh, detailed.noise.sigma, LINEAR, known=False)
-    assert detailed.sigma == level_beside(mesh, clean, low_pass)
+    beside = level_beside(mesh, clean, low_pass)
+    unlike = unlike_noise(mesh, clean, lambda white: beside * white)
+    assert detailed.sigma == beside / max(unlike, 1)
+    assert detailed.sigma == pytest.approx(rms(mesh, CUBE), rel=0.1)
 
 
 @pytest.mark.chapter("P43")

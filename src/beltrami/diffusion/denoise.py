@@ -115,9 +115,10 @@ def denoise(
     vertices around and along the normals of the result; the level is that of the others, root mean
     square.
 
-    A coarse shape may have details in the middle frequencies, evenly all over, as noise that is not
-    white has them. It is told by how it bends: to one side, or little where edges are long
-    (``bends_as_shape``). Smooth details upon it may be taken for shape. ``noise`` tells.
+    Where few vertices make a shape, its details are as even as noise, white or not. They are told
+    by how the mesh bends: to one side, or little where edges are long (``unlike_noise``). What
+    bends so is no noise that is not white, its outliers are the shape's in doubt, and the level is
+    divided by how unlike noise it is. ``noise`` tells better.
 
     Components of at least 1000 vertices, the eight largest, have a noise level and mixtures of
     their own; the others are denoised as one, but for those of less than 40, which stay as they are

@@ -59,8 +59,15 @@ class NoiseLevel:
 
     def explained(self) -> NoiseLevel:
         """Return it without the warning of outliers: what they are is known."""
-        left = tuple(one for one in self.warnings if one != _outliers(self.kurtosis))
-        return replace(self, warnings=left)
+        return self.without(_outliers(self.kurtosis))
+
+    def measured_again(self, relative: float) -> NoiseLevel:
+        """Return it without the warning of strong noise, if there is less, in mean edge lengths."""
+        return self if relative > STRONG else self.without(_strong(self.relative))
+
+    def without(self, warning: str | None) -> NoiseLevel:
+        """Return it without this warning."""
+        return replace(self, warnings=tuple(one for one in self.warnings if one != warning))
 
 
 class Differences(NamedTuple):
@@ -165,8 +172,12 @@ def _warnings(kurtosis: float, excess: float, edges: int, relative: float) -> li
             f"the noise is not white: neighbours are alike (the correlation is off by {excess:.3f})"
         )
     if relative > STRONG:
-        found.append(f"the noise is very strong: {relative:.2f} mean edge lengths")
+        found.append(_strong(relative))
     return found
+
+
+def _strong(relative: float) -> str:
+    return f"the noise is very strong: {relative:.2f} mean edge lengths"
 
 
 def _outliers(kurtosis: float) -> str:

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from beltrami._arrays import Booleans, Floats
-from beltrami.diffusion.bends import bends_as_shape
+from beltrami.diffusion.bends import unlike_noise
 from beltrami.diffusion.candidates import EVENING_IF_STRONG, Bench, Filter
 from beltrami.diffusion.choice import (
     ALL,
@@ -35,7 +35,8 @@ _LOOKS, _LOOKS_IF_STRONG = 1, 2  # at the normals, before the choice
 _STRONG_BESIDE = 0.77  # of the least height of half of the faces, of the noisy mesh
 _TIMES = 2  # that the level is measured without spikes
 _ROUNDING = 1e-9  # mean edges, up to which there is no noise
-_LEFT = 0.55  # of the square that goes beside a first result, of outliers that are the shape's
+# of the square that goes beside a first result, of outliers that are the shape's; or if it bends
+_LEFT, _LEFT_IF_UNLIKE = 0.55, 0.9
 _SEED = 12
 
 
@@ -59,9 +60,10 @@ class Seen:
         Vertices of the largest component.
     looks
         At the normals, before the choice.
-    linear, on_border, folds
-        Whether only linear filters are trusted, whether borders matter, and whether a warning says
-        that the noise is strong beside the faces.
+    linear, on_border
+        Whether only linear filters are trusted, and whether borders matter.
+    folds
+        The warning that the noise is strong beside the faces, if there is one.
     """
 
     noise: float | None
@@ -75,7 +77,7 @@ class Seen:
     looks: int
     linear: bool
     on_border: bool
-    folds: bool
+    folds: str | None
 
     @classmethod
     def of(
@@ -97,12 +99,11 @@ class Seen:
         if found.relative > STRONG or beside:
             bench, looks = bench.moved(mesh, EVENING_IF_STRONG), _LOOKS_IF_STRONG
             found = _level(mesh, bench.normals, spikes)
-        folds = beside and not found.relative > STRONG
-        if folds:
-            told = (
-                f"the noise is strong beside the faces, whose median height is {height / edge:.2f}"
-            )
-            found = replace(found, warnings=(*found.warnings, f"{told} mean edge lengths"))
+        folds = None
+        if beside and not found.relative > STRONG:
+            told = f"whose median height is {height / edge:.2f} mean edge lengths"
+            folds = f"the noise is strong beside the faces, {told}"
+            found = replace(found, warnings=(*found.warnings, folds))
         sample = sample_of(mesh, size)
         there = None if spikes is None else spikes[sample.vertices]
         if there is not None:
@@ -152,7 +153,7 @@ class Seen:
         alike = colour_beside(
             colour, rows, mesh, clean, lambda one: self._filtered(one, low), self.sample.core
         )
-        return bends_as_shape(mesh, clean, partial(alike.noise, rows))
+        return unlike_noise(mesh, clean, partial(alike.noise, rows)) > 1
 
     def _explained(self) -> NoiseLevel:
         """Return what was found, without the warning of outliers if they are the shape's.
@@ -163,9 +164,15 @@ class Seen:
         level = self.found.spread
         normals, low_passes = self.bench.normals[self.sample.vertices], self._low_passes()
         low = self._chosen(level, normals, low_passes, known=True, caution=CAUTION_ON_SMOOTH)
-        rough = rough_part(self.sample.mesh, self._filtered(self.sample.mesh, low))
+        clean = self._filtered(self.sample.mesh, low)
+        rough = rough_part(self.sample.mesh, clean)
         left, gone = rough.spread**2 - rough.level**2, self.found.spread**2 - rough.spread**2
-        return self.found.explained() if left < _LEFT * gone else self.found
+        if left < _LEFT * gone:
+            return self.found.explained()
+        if left < _LEFT_IF_UNLIKE * gone:
+            unlike = unlike_noise(self.sample.mesh, clean, lambda white: rough.spread * white)
+            return self.found.explained() if unlike > 1 else self.found
+        return self.found
 
     def choice(self) -> tuple[NoiseLevel, Choice]:
         """Look, measure the noise beside what is seen, and choose; return what it is known for."""
@@ -188,7 +195,13 @@ class Seen:
         filters = low_passes
         if not self.linear and not odd:
             filters = with_borders(ALL) if self.on_border else ALL
-        return seen.found, seen._chosen(sigma, normals, filters, known=known)
+        return seen._told(sigma), seen._chosen(sigma, normals, filters, known=known)
+
+    def _told(self, sigma: float) -> NoiseLevel:
+        """Return what was found; that the noise is strong was too much, if it is not."""
+        mesh = self.sample.mesh
+        found = self.found.measured_again(sigma / float(mesh.edge_lengths.mean()))
+        return found if sigma > _STRONG_BESIDE * _height(mesh) else found.without(self.folds)
 
     def _beside(self, colour: NoiseColour, clean: Mesh, low: Choice) -> Seen:
         """Return the same with the colour beside a first result."""
@@ -239,9 +252,13 @@ class Seen:
                 there = mesh.vertices + sigma * white[:, None] * clean.vertex_normals
                 sigma = rough_part(mesh.with_vertices(there), clean).spread
             return sigma
-        if len(self.found.warnings) > self.folds:  # it is odd in another way too
-            return _level(mesh, clean.vertex_normals).spread
-        return level_beside(mesh, clean, lambda one: self._filtered(one, low))
+        if self.found.without(self.folds).warnings:  # it is odd in another way too
+            level = _level(mesh, clean.vertex_normals).spread
+        else:
+            level = level_beside(mesh, clean, lambda one: self._filtered(one, low))
+        if self.found.has_outliers:  # whose places bend in a way of their own
+            return level
+        return level / max(unlike_noise(mesh, clean, lambda white: level * white), 1.0)
 
 
 def _level(mesh: Mesh, normals: Floats, spikes: Booleans | None = None) -> NoiseLevel:
