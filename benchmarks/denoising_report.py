@@ -25,8 +25,9 @@ the mean over the seeds ± half the 95 % confidence interval (Student). "Own bes
 best single one of the filters that are mixed, found knowing the truth. CPU is that of `denoise`.
 
 The constants of `denoise` were chosen on the meshes "tuned on"; on those "held out" none was, but
-that what is fainter than 0.12 mean edges may be texture (the armadillo's) was seen on both, and
-that borders of less than a hundredth of the vertices matter little (the face's), too.
+that what is fainter than 0.12 mean edges may be texture (the armadillo's) was seen on both, that
+borders of less than a hundredth of the vertices matter little (the face's), too, and how far noise
+that is not white may be off in `bends` was looked at on all, and on the further ones.
 "The best linear filter" is the best of those with equal weights and with weights by length.
 """
 OF_FURTHER = """

@@ -19,9 +19,11 @@ HELD_OUT = ("bumps", "octahedron", "can", "saddle",
 # of CGAL's data, as in Debian's libcgal-demo; the first ones were looked at while denoise was made
 FURTHER_SEEN = ("elephant", "femur", "cow", "man", "mannequin-devil", "bull", "knot1",
                 "rotor_small", "dino", "lion", "blade", "turbine", "homer", "retinal",
-                "triceratops", "anchor_dense", "cheese")  # fmt: skip
-FURTHER = (*FURTHER_SEEN, "camel", "bear", "lion-head", "diplodocus", "blobby",
-           "ChineseDragon-10kv", "mushroom", "knot2", "hand", "holes")  # fmt: skip
+                "triceratops", "anchor_dense", "cheese", "ChineseDragon-10kv", "knot2",
+                "hand", "elk", "elephant-with-holes")  # fmt: skip
+FURTHER = (*FURTHER_SEEN, "camel", "bear", "lion-head", "diplodocus", "blobby", "mushroom", "holes",
+           "knot", "bear_bis", "mech-holes-shark", "three_peaks", "polygon_mesh",
+           "fandisk_large")  # fmt: skip
 CREASED = ("cube", "fandisk", "octahedron", "can", "beetle")  # the others are organic
 FILES = {
     "spot": "spot_triangulated.obj",
