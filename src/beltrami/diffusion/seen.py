@@ -136,8 +136,7 @@ class Seen:
         mesh = self.sample.mesh
         if min(self.largest, mesh.n_vertices) < _ENOUGH or self.spikes is not None:
             return None
-        normals = self.bench.normals[self.sample.vertices]
-        found = noise_colour(equal_rows(mesh), mesh.vertices, normals, self.sample.core)
+        found = noise_colour(equal_rows(mesh), mesh.vertices, self._normals(), self.sample.core)
         return found if found.is_coloured(edge) else None
 
     def _of_colour(self, colour: NoiseColour) -> Seen:
@@ -146,14 +145,10 @@ class Seen:
 
     def _is_shape(self, colour: NoiseColour) -> bool:
         """Whether what has this colour bends as shapes do."""
-        normals, low_passes = self.bench.normals[self.sample.vertices], self._low_passes()
-        level, mesh = self.found.spread, self.sample.mesh
-        low = self._chosen(level, normals, low_passes, known=False, caution=CAUTION_ON_SMOOTH)
-        clean, rows = self._filtered(mesh, low), equal_rows(mesh)
-        alike = colour_beside(
-            colour, rows, mesh, clean, lambda one: self._filtered(one, low), self.sample.core
-        )
-        return unlike_noise(mesh, clean, partial(alike.noise, rows)) > 1
+        low, clean = self._look(self.found.spread, self._normals(), known=False)
+        alike = self._colour_beside(colour, clean, low)
+        make = partial(alike.noise, equal_rows(self.sample.mesh))
+        return unlike_noise(self.sample.mesh, clean, make) > 1
 
     def _explained(self) -> NoiseLevel:
         """Return what was found, without the warning of outliers if they are the shape's.
@@ -161,10 +156,7 @@ class Seen:
         They are if more of them goes than is left beside a first result, which tells on which side
         of a crease a vertex is.
         """
-        level = self.found.spread
-        normals, low_passes = self.bench.normals[self.sample.vertices], self._low_passes()
-        low = self._chosen(level, normals, low_passes, known=True, caution=CAUTION_ON_SMOOTH)
-        clean = self._filtered(self.sample.mesh, low)
+        _, clean = self._look(self.found.spread, self._normals(), known=True)
         rough = rough_part(self.sample.mesh, clean)
         left, gone = rough.spread**2 - rough.level**2, self.found.spread**2 - rough.spread**2
         if left < _LEFT * gone:
@@ -182,17 +174,16 @@ class Seen:
         if sigma <= _ROUNDING * float(self.sample.mesh.edge_lengths.mean()):
             return self.found, NOTHING
         known = self.noise is not None or (odd and self.colour is None)
-        normals, low_passes = self.bench.normals[self.sample.vertices], self._low_passes()
+        normals = self._normals()
         for _ in range(self.looks):
-            low = seen._chosen(sigma, normals, low_passes, known=known, caution=CAUTION_ON_SMOOTH)
-            clean = self._filtered(self.sample.mesh, low)
+            low, clean = seen._look(sigma, normals, known=known)
             normals = clean.vertex_normals
             if seen.colour is not None:
-                seen = seen._beside(seen.colour, clean, low)
+                seen = seen._of_colour(seen._colour_beside(seen.colour, clean, low))
                 sigma = seen.found.spread if self.noise is None else self.noise
             elif self.noise is None:
                 sigma = self._level_beside(clean, low, sigma)
-        filters = low_passes
+        filters = self._low_passes()
         if not self.linear and not odd:
             filters = with_borders(ALL) if self.on_border else ALL
         return seen._told(sigma), seen._chosen(sigma, normals, filters, known=known)
@@ -203,14 +194,24 @@ class Seen:
         found = self.found.measured_again(sigma / float(mesh.edge_lengths.mean()))
         return found if sigma > _STRONG_BESIDE * _height(mesh) else found.without(self.folds)
 
-    def _beside(self, colour: NoiseColour, clean: Mesh, low: Choice) -> Seen:
-        """Return the same with the colour beside a first result."""
+    def _colour_beside(self, colour: NoiseColour, clean: Mesh, low: Choice) -> NoiseColour:
+        """Return the colour beside a first result."""
         rows, core = equal_rows(self.sample.mesh), self.sample.core
 
         def filtered(mesh: Mesh) -> Mesh:
             return self._filtered(mesh, low)
 
-        return self._of_colour(colour_beside(colour, rows, self.sample.mesh, clean, filtered, core))
+        return colour_beside(colour, rows, self.sample.mesh, clean, filtered, core)
+
+    def _normals(self) -> Floats:
+        """Return the normals of the evened mesh, before anything better is known."""
+        return self.bench.normals[self.sample.vertices]
+
+    def _look(self, level: float, normals: Floats, *, known: bool) -> tuple[Choice, Mesh]:
+        """Return the low passes for this level, and what they make of the sample."""
+        filters, caution = self._low_passes(), CAUTION_ON_SMOOTH
+        low = self._chosen(level, normals, filters, known=known, caution=caution)
+        return low, self._filtered(self.sample.mesh, low)
 
     def _low_passes(self) -> tuple[Filter, ...]:
         low_passes = LINEAR if self.linear else LOW_PASSES
