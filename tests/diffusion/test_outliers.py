@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from beltrami.diffusion.denoise import denoise
-from beltrami.diffusion.level import clipped_level, rough_part
+from beltrami.diffusion.level import clipped_level
 from beltrami.diffusion.noise import noise_level
+from beltrami.diffusion.outliers import among_short_edges, are_of_shape, rough_part
 from beltrami.diffusion.spikes import find_spikes
 from beltrami.mesh import shapes
 from made_once import MadeOnce, creature
@@ -168,3 +169,36 @@ class TestOverlooked:
         false = found.found & (heights == 0)
         assert false.sum() <= 0.01 * truth.n_vertices
         assert not false[np.bincount(truth.faces.ravel(), minlength=len(false)) == 3].any()
+
+
+class TestLongEdges:
+    """A sheet whose edges grow from its middle, with four folds where they are of medium length."""
+
+    @staticmethod
+    def sheet():
+        square = shapes.grid(40, 40, dimension=3)
+        t = 2 * square.vertices[:, :2] - 1
+        x, y = (np.sign(t) * np.abs(t) ** 5).T
+        return square.with_vertices(np.column_stack([x, y, 2 * np.abs(np.abs(x) - 0.5**5)]))
+
+    def test_a_third_of_the_vertices_are_among_long_edges(self):
+        sheet = self.sheet()
+        short = among_short_edges(sheet)
+        far = np.abs(sheet.vertices[:, :2]).max(axis=1)
+        assert far[~short].min() > np.median(far[short])
+        assert 0.3 < 1 - short.mean() < 0.45
+        torus = shapes.torus(40, 20)
+        assert among_short_edges(torus).all()
+
+    @pytest.mark.parametrize("among", ["short", "long"])
+    def test_outliers_there_may_be_of_the_shape(self, among):
+        sheet = self.sheet()
+        where = among_short_edges(sheet)
+        if among == "long":  # and none of their neighbours is among short ones
+            where = sheet.topology.adjacency @ where == 0
+        hit = where & (np.random.default_rng(0).random(sheet.n_vertices) < 0.05)
+        way = 0.5 * sheet.edge_lengths.mean() * hit[:, None] * sheet.vertex_normals
+        mesh = sheet.with_vertices(sheet.vertices + way)
+        everywhere = rough_part(mesh, sheet)
+        assert everywhere.spread > 40 * everywhere.level  # as spikes everywhere, if all count
+        assert are_of_shape(mesh, sheet.vertex_normals, sheet) == (among == "long")

@@ -110,7 +110,7 @@ def denoise(
     Sharp features make outliers of the rough part that the level is measured by, as spikes do. On
     200 vertices or more, outliers are the shape's, and are not said, if more of their square goes
     beside a first result than is left: it tells on which side of a crease a vertex is
-    (``rough_part``). Else spikes are looked for, but not with ``noise`` or ``"linear"``, nor upon
+    (``are_of_shape``). Else spikes are looked for, but not with ``noise`` or ``"linear"``, nor upon
     noise that is not white (``beltrami.diffusion.spikes``). Their places are filled, from the
     vertices around and along the normals of the result; the level is that of the others, root mean
     square.

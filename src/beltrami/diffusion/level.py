@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_array, eye_array
@@ -63,32 +62,6 @@ def level_beside(mesh: Mesh, clean: Mesh, filtered: Callable[[Mesh], Mesh]) -> f
     return without_shape(low, high, mesh.n_vertices)
 
 
-@dataclass(frozen=True)
-class RoughPart:
-    """Of a noisy mesh, beside a first result.
-
-    Sharp features make outliers of the rough part, but not of this one, as averages by the normals
-    of the first result stay on their side; spikes are far off all their neighbours.
-
-    Attributes
-    ----------
-    level, spread
-        Standard deviation, outliers left out and counted in, in the unit of length.
-    """
-
-    level: float
-    spread: float
-
-
-def rough_part(mesh: Mesh, clean: Mesh) -> RoughPart:
-    """Measure it, as ``level_beside``; on a mesh without edges, of no size."""
-    K, inner = _differences(mesh, clean)
-    values = _rough(_power(K, _ORDER), mesh, clean, inner)
-    if not len(values):
-        return RoughPart(0.0, 0.0)
-    return RoughPart(clipped_level(values), float(np.sqrt(np.mean(values**2))))
-
-
 def without_shape(low: float, high: float, n: int) -> float:
     """Return the level without what the shape adds, from those of two orders on n vertices.
 
@@ -109,9 +82,19 @@ def without_shape(low: float, high: float, n: int) -> float:
 
 def _levels(mesh: Mesh, clean: Mesh) -> Floats:
     """Return the levels by differences of the two orders."""
+    return np.array([clipped_level(values) for values, _ in rough_values(mesh, clean, (1, 2))])
+
+
+def rough_values(
+    mesh: Mesh, clean: Mesh, powers: tuple[int, ...] = (1,)
+) -> list[tuple[Floats, Booleans]]:
+    """Return the rough parts :math:`R^p y` of ``level_beside``, and at which vertices there is one.
+
+    They have the variance of the noise.
+    """
     K, inner = _differences(mesh, clean)
     R = _power(K, _ORDER)
-    return np.array([clipped_level(_rough(one, mesh, clean, inner)) for one in (R, R @ R)])
+    return [_rough(_power(R, power), mesh, clean, inner) for power in powers]
 
 
 def _differences(mesh: Mesh, clean: Mesh) -> tuple[csr_array, Booleans]:
@@ -128,15 +111,15 @@ def _power(K: csr_array, order: int) -> csr_array:
     return R
 
 
-def _rough(R: csr_array, mesh: Mesh, clean: Mesh, inner: Booleans) -> Floats:
-    """Return what R leaves along the normals, where it leaves any, of the variance of the noise."""
+def _rough(R: csr_array, mesh: Mesh, clean: Mesh, inner: Booleans) -> tuple[Floats, Booleans]:
+    """Return what R leaves along the normals, of the variance of the noise, and where it does."""
     normals = clean.vertex_normals
     rows = np.repeat(np.arange(mesh.n_vertices), np.diff(R.indptr))
     toward = np.einsum("ij,ij->i", normals[rows], normals[R.indices])
     norms = np.sqrt(np.bincount(rows, (R.data * toward) ** 2, mesh.n_vertices))
     rough = np.einsum("ij,ij->i", R @ mesh.vertices, normals)
     kept = inner & (norms > 0)
-    return np.asarray(rough[kept] / norms[kept])
+    return np.asarray(rough[kept] / norms[kept]), kept
 
 
 def clipped_level(values: Floats) -> float:

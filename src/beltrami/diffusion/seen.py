@@ -22,9 +22,10 @@ from beltrami.diffusion.choice import (
     with_borders,
 )
 from beltrami.diffusion.colour import NoiseColour, colour_beside, noise_colour, with_colour
-from beltrami.diffusion.level import level_beside, rough_part
+from beltrami.diffusion.level import level_beside
 from beltrami.diffusion.linear_filters import LINEAR, equal_rows
 from beltrami.diffusion.noise import STRONG, Differences, NoiseLevel, noise_level
+from beltrami.diffusion.outliers import are_of_shape, rough_part
 from beltrami.diffusion.patches import Sample, sample_of, sizes_of_components
 from beltrami.mesh.mesh import Mesh
 
@@ -35,8 +36,6 @@ _LOOKS, _LOOKS_IF_STRONG = 1, 2  # at the normals, before the choice
 _STRONG_BESIDE = 0.77  # of the least height of half of the faces, of the noisy mesh
 _TIMES = 2  # that the level is measured without spikes
 _ROUNDING = 1e-9  # mean edges, up to which there is no noise
-# of the square that goes beside a first result, of outliers that are the shape's; or if it bends
-_LEFT, _LEFT_IF_UNLIKE = 0.55, 0.9
 _SEED = 12
 
 
@@ -151,20 +150,11 @@ class Seen:
         return unlike_noise(self.sample.mesh, clean, make) > 1
 
     def _explained(self) -> NoiseLevel:
-        """Return what was found, without the warning of outliers if they are the shape's.
-
-        They are if more of them goes than is left beside a first result, which tells on which side
-        of a crease a vertex is.
-        """
-        _, clean = self._look(self.found.spread, self._normals(), known=True)
-        rough = rough_part(self.sample.mesh, clean)
-        left, gone = rough.spread**2 - rough.level**2, self.found.spread**2 - rough.spread**2
-        if left < _LEFT * gone:
-            return self.found.explained()
-        if left < _LEFT_IF_UNLIKE * gone:
-            unlike = unlike_noise(self.sample.mesh, clean, lambda white: rough.spread * white)
-            return self.found.explained() if unlike > 1 else self.found
-        return self.found
+        """Return what was found, without the warning of outliers if they are the shape's."""
+        normals = self._normals()
+        _, clean = self._look(self.found.spread, normals, known=True)
+        shape = are_of_shape(self.sample.mesh, normals, clean)
+        return self.found.explained() if shape else self.found
 
     def choice(self) -> tuple[NoiseLevel, Choice]:
         """Look, measure the noise beside what is seen, and choose; return what it is known for."""
