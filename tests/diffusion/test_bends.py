@@ -242,6 +242,14 @@ class TestDenoise:
         assert not found.warnings
         assert rms(found.mesh, shape) < most * shape.edge_lengths.mean()
 
+    def test_noise_that_is_not_little_is_not_doubted(self):
+        """On a gear with noise the first result has lost shape, and bends unlike noise for that."""
+        shape = gear()
+        edge = shape.edge_lengths.mean()
+        noise = 0.3 * edge * np.random.default_rng(0).standard_normal((shape.n_vertices, 1))
+        found = denoise(shape.with_vertices(shape.vertices + noise * shape.vertex_normals))
+        assert found.sigma == pytest.approx(0.3 * edge, rel=0.1)
+
     @pytest.mark.parametrize("height", [0.6, 1])
     def test_sharp_pleats_are_no_strong_noise(self, height):
         mesh = pleated(3, height, rounds=0)

@@ -36,6 +36,7 @@ _LOOKS, _LOOKS_IF_STRONG = 1, 2  # at the normals, before the choice
 _STRONG_BESIDE = 0.77  # of the least height of half of the faces, of the noisy mesh
 _TIMES = 2  # that the level is measured without spikes
 _ROUNDING = 1e-9  # mean edges, up to which there is no noise
+_LITTLE = 0.06, 0.12  # mean edges: from all in doubt to nothing
 _SEED = 12
 
 
@@ -249,7 +250,19 @@ class Seen:
             level = level_beside(mesh, clean, lambda one: self._filtered(one, low))
         if self.found.has_outliers:  # whose places bend in a way of their own
             return level
-        return level / max(unlike_noise(mesh, clean, lambda white: level * white), 1.0)
+        unlike = max(unlike_noise(mesh, clean, lambda white: level * white), 1.0)
+        return float(level / unlike ** self._doubt(level))
+
+    def _doubt(self, level: float) -> float:
+        """Return how much of the level may be shape: from 0 to 1, if it is little or very strong.
+
+        Between them, the first result has lost shape that noise had hidden, and bends like neither.
+        """
+        if self.found.relative > STRONG:
+            return 1.0
+        little, much = _LITTLE
+        relative = level / float(self.sample.mesh.edge_lengths.mean())
+        return min(max((much - relative) / (much - little), 0.0), 1.0)
 
 
 def _level(mesh: Mesh, normals: Floats, spikes: Booleans | None = None) -> NoiseLevel:
