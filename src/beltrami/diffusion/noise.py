@@ -61,9 +61,9 @@ class NoiseLevel:
         """Return it without the warning of outliers: what they are is known."""
         return self.without(_outliers(self.kurtosis))
 
-    def measured_again(self, relative: float) -> NoiseLevel:
-        """Return it without the warning of strong noise, if there is less, in mean edge lengths."""
-        return self if relative > STRONG else self.without(_strong(self.relative))
+    def measured_again(self, sigma: float, edge_length: float) -> NoiseLevel:
+        """Return it without the warning of strong noise, if there is less beside the edges."""
+        return self if sigma > STRONG * edge_length else self.without(_strong(self.relative))
 
     def without(self, warning: str | None) -> NoiseLevel:
         """Return it without this warning."""

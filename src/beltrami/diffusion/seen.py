@@ -182,7 +182,7 @@ class Seen:
     def _told(self, sigma: float) -> NoiseLevel:
         """Return what was found; that the noise is strong was too much, if it is not."""
         mesh = self.sample.mesh
-        found = self.found.measured_again(sigma / float(mesh.edge_lengths.mean()))
+        found = self.found.measured_again(sigma, float(mesh.edge_lengths.mean()))
         return found if sigma > _STRONG_BESIDE * _height(mesh) else found.without(self.folds)
 
     def _colour_beside(self, colour: NoiseColour, clean: Mesh, low: Choice) -> NoiseColour:
