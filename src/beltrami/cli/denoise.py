@@ -97,8 +97,7 @@ def _bend(mesh: Mesh) -> float:
     """Return the mean angle between the normals of faces that share an edge, in degrees."""
     import numpy as np
 
-    twins = mesh.topology.twins.ravel()
-    sides = np.flatnonzero(twins > np.arange(len(twins)))
+    twins, sides = mesh.topology.twins.ravel(), mesh.topology.inner_sides
     if not len(sides):
         return 0.0
     normals = mesh.face_normals

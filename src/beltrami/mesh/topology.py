@@ -99,6 +99,12 @@ class Topology(Frozen):
         """(m, 3) int: the half-edge 3 f + c across each side; -1 boundary, -2 not manifold."""
         return self.half_edges.twins
 
+    @property
+    def inner_sides(self) -> Integers:
+        """(q,) int: of each edge of two faces, the half-edge 3 f + c whose twin is the larger."""
+        twins = self.twins.ravel()
+        return np.flatnonzero(twins > np.arange(len(twins)))
+
     @cached_property
     def edge_face_count(self) -> Integers:
         """(p,) int: how many faces share each edge."""
@@ -226,15 +232,14 @@ class Topology(Frozen):
         """(q, 2) int: the edges that their two faces run through in the same direction."""
         if self.is_oriented:
             return read_only(np.zeros((0, 2), np.int64))
-        side = np.flatnonzero(self.twins.ravel() > np.arange(3 * self.n_faces))
+        side = self.inner_sides
         return read_only(self.edges[self.face_edges.ravel()[side][self._face_pairs[1]]])
 
     @cached_property
     def _face_pairs(self) -> tuple[Integers, Booleans]:
         """Pairs of faces that share a side, and whether they disagree on its direction."""
-        twins = self.twins.ravel()
-        side = np.flatnonzero(twins > np.arange(len(twins)))
-        other = twins[side].astype(np.int64)
+        side = self.inner_sides
+        other = self.twins.ravel()[side].astype(np.int64)
         start = self.faces[side // 3, (side + 1) % 3]
         same = self.faces[other // 3, (other + 1) % 3] == start
         return np.stack([side // 3, other // 3], axis=1), same
