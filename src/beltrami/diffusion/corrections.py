@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from beltrami._arrays import Booleans, Floats
+from beltrami.diffusion.lengths import lengths_around
 from beltrami.diffusion.noise import averaging_matrix
 from beltrami.mesh.mesh import Mesh
 
@@ -184,12 +185,8 @@ def _terms(mesh: Mesh, x: Floats, normals: Floats, unit: float) -> Iterator[Floa
 
 def _places(mesh: Mesh, x: Floats, bend: Floats, unit: float) -> Iterator[Floats]:
     """Yield how unusual the edges at each vertex, its mean curvature and the size of that are."""
-    i, j = mesh.edges.T
-    lengths = np.linalg.norm(x[i] - x[j], axis=1)
-    total = np.bincount(i, lengths, len(x)) + np.bincount(j, lengths, len(x))
-    mean = total / np.maximum(np.diff(mesh.topology.adjacency.indptr), 1)
     for value in (
-        (mean / unit - _LENGTH) / _LENGTHS,
+        (lengths_around(mesh, x) / unit - _LENGTH) / _LENGTHS,
         bend / unit / _BENDS,
         (np.abs(bend) / unit - _BENT) / _MORE_BENT,
     ):

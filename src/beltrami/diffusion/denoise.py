@@ -116,10 +116,10 @@ def denoise(
     square.
 
     Where few vertices make a shape, its details are as even as noise, white or not. They are told
-    by how the mesh bends: to one side, or little where edges are long (``unlike_noise``). What
-    bends so is no noise that is not white, its outliers are the shape's in doubt, and the level is
-    divided by how unlike noise it is, if it is little (up to 0.12 mean edges) or very strong.
-    ``noise`` tells better.
+    by how the mesh bends: to one side, or little where edges are long (``unlike_noise``). Then what
+    looks like noise that is not white is shape; in doubt, so are outliers; and the level, if it is
+    little (up to 0.12 mean edges) or very strong, is divided by how unlike noise the mesh is. With
+    ``noise`` nobody has to guess.
 
     Components of at least 1000 vertices, the eight largest, have a noise level and mixtures of
     their own; the others are denoised as one, but for those of less than 40, which stay as they are

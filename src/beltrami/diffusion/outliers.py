@@ -8,6 +8,7 @@ import numpy as np
 
 from beltrami._arrays import Booleans, Floats
 from beltrami.diffusion.bends import unlike_noise
+from beltrami.diffusion.lengths import lengths_around
 from beltrami.diffusion.level import clipped_level, rough_values
 from beltrami.diffusion.noise import Differences
 from beltrami.mesh.mesh import Mesh
@@ -34,14 +35,9 @@ class RoughPart:
     spread: float
 
 
-def rough_part(mesh: Mesh, clean: Mesh, where: Booleans | None = None) -> RoughPart:
-    """Measure it, as ``level_beside``, at some vertices or all; without edges, it has no size."""
-    values, kept = rough_values(mesh, clean)[0]
-    if where is not None:
-        values = values[where[kept]]
-    if not len(values):
-        return RoughPart(0.0, 0.0)
-    return RoughPart(clipped_level(values), float(np.sqrt(np.mean(values**2))))
+def rough_part(mesh: Mesh, clean: Mesh) -> RoughPart:
+    """Measure it, as ``level_beside``; on a mesh without edges, of no size."""
+    return _part(rough_values(mesh, clean)[0][0])
 
 
 def are_of_shape(mesh: Mesh, normals: Floats, clean: Mesh) -> bool:
@@ -56,29 +52,29 @@ def are_of_shape(mesh: Mesh, normals: Floats, clean: Mesh) -> bool:
     -----
     Cost: O(n), with some hundred operations for each vertex, and nine times ``Bends.of``.
     """
+    values, kept = rough_values(mesh, clean)[0]
+    K, norms = Differences.of(mesh.topology.adjacency)
+    before = np.einsum("ij,ij->i", K @ (K @ mesh.vertices), normals) / norms[1]
     everywhere = np.ones(mesh.n_vertices, np.bool_)
     left = np.inf
     for where in (everywhere, among_short_edges(clean)):
-        rough = rough_part(mesh, clean, where)
-        gone = _spread(mesh, normals, where) ** 2 - rough.spread**2
+        rough = _part(values[where[kept]])
+        gone = float(np.mean(before[where] ** 2)) - rough.spread**2
         if gone > 0:
             left = min(left, (rough.spread**2 - rough.level**2) / gone)
-    if left >= _LEFT_IF_UNLIKE:
-        return False
-    spread = rough_part(mesh, clean, everywhere).spread
-    return left < _LEFT or unlike_noise(mesh, clean, lambda white: spread * white) > 1
+    if left < _LEFT or left >= _LEFT_IF_UNLIKE:
+        return left < _LEFT
+    spread = _part(values).spread
+    return unlike_noise(mesh, clean, lambda white: spread * white) > 1
 
 
 def among_short_edges(mesh: Mesh) -> Booleans:
     """(n,) bool: vertices whose edges are not much longer than those of half of the vertices."""
-    degrees = np.bincount(mesh.edges.ravel(), minlength=mesh.n_vertices)
-    total = np.bincount(mesh.edges.ravel(), np.repeat(mesh.edge_lengths, 2), mesh.n_vertices)
-    length = total / np.maximum(degrees, 1)
+    length = lengths_around(mesh, mesh.vertices)
     return np.asarray(length <= _SHORT * np.median(length))
 
 
-def _spread(mesh: Mesh, normals: Floats, where: Booleans) -> float:
-    """Return the root mean square of the differences of order 2, as ``noise_level``."""
-    K, norms = Differences.of(mesh.topology.adjacency)
-    along = np.einsum("ij,ij->i", K @ (K @ mesh.vertices), normals) / norms[1]
-    return float(np.sqrt(np.mean(along[where] ** 2)))
+def _part(values: Floats) -> RoughPart:
+    if not len(values):
+        return RoughPart(0.0, 0.0)
+    return RoughPart(clipped_level(values), float(np.sqrt(np.mean(values**2))))

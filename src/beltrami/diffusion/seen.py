@@ -22,6 +22,7 @@ from beltrami.diffusion.choice import (
     with_borders,
 )
 from beltrami.diffusion.colour import NoiseColour, colour_beside, noise_colour, with_colour
+from beltrami.diffusion.lengths import median_height
 from beltrami.diffusion.level import level_beside
 from beltrami.diffusion.linear_filters import LINEAR, equal_rows
 from beltrami.diffusion.noise import STRONG, Differences, NoiseLevel, noise_level
@@ -58,8 +59,8 @@ class Seen:
         The vertices of the sample that were put in the place of spikes, if there were some.
     largest
         Vertices of the largest component.
-    looks
-        At the normals, before the choice.
+    normals, looks
+        Of the sample, as they are known; and how often they are to be looked at before the choice.
     linear, on_border
         Whether only linear filters are trusted, and whether borders matter.
     folds
@@ -74,6 +75,7 @@ class Seen:
     colour: NoiseColour | None
     spikes: Booleans | None
     largest: int
+    normals: Floats
     looks: int
     linear: bool
     on_border: bool
@@ -94,7 +96,7 @@ class Seen:
         bench, looks = bench or Bench.of(mesh), _LOOKS
         found = _level(mesh, bench.normals, spikes)
         largest = int(sizes_of_components(mesh)[1].max())
-        edge, height = float(mesh.edge_lengths.mean()), _height(mesh)
+        edge, height = float(mesh.edge_lengths.mean()), median_height(mesh)
         beside = found.sigma > _STRONG_BESIDE * height
         if found.relative > STRONG or beside:
             bench, looks = bench.moved(mesh, EVENING_IF_STRONG), _LOOKS_IF_STRONG
@@ -117,16 +119,16 @@ class Seen:
             None,
             there,
             largest,
+            bench.normals[sample.vertices],
             looks,
             linear or mesh.n_vertices < SMALL,
             float(mesh.topology.on_boundary[sample.vertices[sample.core]].mean()) > _BORDERS,
             folds,
         )
         colour = seen._first_colour(edge)
-        if colour is not None:
-            coloured = seen._of_colour(colour)
-            if not coloured._is_shape(colour):
-                return coloured
+        coloured = None if colour is None else seen._coloured(colour)
+        if coloured is not None:
+            return coloured
         if found.has_outliers and mesh.n_vertices >= SMALL:
             return replace(seen, found=seen._explained())
         return seen
@@ -136,25 +138,28 @@ class Seen:
         mesh = self.sample.mesh
         if min(self.largest, mesh.n_vertices) < _ENOUGH or self.spikes is not None:
             return None
-        found = noise_colour(equal_rows(mesh), mesh.vertices, self._normals(), self.sample.core)
+        found = noise_colour(equal_rows(mesh), mesh.vertices, self.normals, self.sample.core)
         return found if found.is_coloured(edge) else None
 
     def _of_colour(self, colour: NoiseColour) -> Seen:
         found = with_colour(self.measured, colour, equal_rows(self.sample.mesh))
         return replace(self, colour=colour, found=found)
 
-    def _is_shape(self, colour: NoiseColour) -> bool:
-        """Whether what has this colour bends as shapes do."""
-        low, clean = self._look(self.found.spread, self._normals(), known=False)
-        alike = self._colour_beside(colour, clean, low)
+    def _coloured(self, colour: NoiseColour) -> Seen | None:
+        """Look, and return it with the colour beside that; nothing, if it bends as shapes do."""
+        seen, known = self._of_colour(colour), self.noise is not None
+        low, clean = seen._look(self.noise or seen.found.spread, self.normals, known=known)
+        alike = seen._colour_beside(colour, clean, low)
         make = partial(alike.noise, equal_rows(self.sample.mesh))
-        return unlike_noise(self.sample.mesh, clean, make) > 1
+        if unlike_noise(self.sample.mesh, clean, make) > 1:
+            return None
+        again = seen._of_colour(alike)
+        return replace(again, normals=clean.vertex_normals, looks=self.looks - 1)
 
     def _explained(self) -> NoiseLevel:
         """Return what was found, without the warning of outliers if they are the shape's."""
-        normals = self._normals()
-        _, clean = self._look(self.found.spread, normals, known=True)
-        shape = are_of_shape(self.sample.mesh, normals, clean)
+        _, clean = self._look(self.found.spread, self.normals, known=True)
+        shape = are_of_shape(self.sample.mesh, self.normals, clean)
         return self.found.explained() if shape else self.found
 
     def choice(self) -> tuple[NoiseLevel, Choice]:
@@ -165,7 +170,7 @@ class Seen:
         if sigma <= _ROUNDING * float(self.sample.mesh.edge_lengths.mean()):
             return self.found, NOTHING
         known = self.noise is not None or (odd and self.colour is None)
-        normals = self._normals()
+        normals = self.normals
         for _ in range(self.looks):
             low, clean = seen._look(sigma, normals, known=known)
             normals = clean.vertex_normals
@@ -183,7 +188,7 @@ class Seen:
         """Return what was found; that the noise is strong was too much, if it is not."""
         mesh = self.sample.mesh
         found = self.found.measured_again(sigma, float(mesh.edge_lengths.mean()))
-        return found if sigma > _STRONG_BESIDE * _height(mesh) else found.without(self.folds)
+        return found if sigma > _STRONG_BESIDE * median_height(mesh) else found.without(self.folds)
 
     def _colour_beside(self, colour: NoiseColour, clean: Mesh, low: Choice) -> NoiseColour:
         """Return the colour beside a first result."""
@@ -193,10 +198,6 @@ class Seen:
             return self._filtered(mesh, low)
 
         return colour_beside(colour, rows, self.sample.mesh, clean, filtered, core)
-
-    def _normals(self) -> Floats:
-        """Return the normals of the evened mesh, before anything better is known."""
-        return self.bench.normals[self.sample.vertices]
 
     def _look(self, level: float, normals: Floats, *, known: bool) -> tuple[Choice, Mesh]:
         """Return the low passes for this level, and what they make of the sample."""
@@ -250,8 +251,12 @@ class Seen:
             level = level_beside(mesh, clean, lambda one: self._filtered(one, low))
         if self.found.has_outliers:  # whose places bend in a way of their own
             return level
-        unlike = max(unlike_noise(mesh, clean, lambda white: level * white), 1.0)
-        return float(level / unlike ** self._doubt(level))
+        doubt = self._doubt(level)
+        if not doubt:
+            return level
+        return float(
+            level / max(unlike_noise(mesh, clean, lambda white: level * white), 1) ** doubt
+        )
 
     def _doubt(self, level: float) -> float:
         """Return how much of the level may be shape: from 0 to 1, if it is little or very strong.
@@ -285,13 +290,3 @@ def _whites(spikes: Booleans) -> list[Floats]:
     """
     white = np.random.default_rng(_SEED).standard_normal(len(spikes)) * spikes
     return [white] * _TIMES
-
-
-def _height(mesh: Mesh) -> float:
-    """Return the median of the least heights of the faces; infinity, if none has an edge."""
-    i, j, k = mesh.edge_lengths[mesh.topology.face_edges].T
-    longest = np.maximum(np.maximum(i, j), k)
-    kept = longest > 0
-    if not kept.any():
-        return np.inf
-    return float(np.median(2 * mesh.face_areas[kept] / longest[kept]))
