@@ -33,7 +33,8 @@ that is not white may be off in `bends` was looked at on all, and on the further
 OF_FURTHER = """
 Of CGAL's data (Debian: libcgal-demo), many of them decimated, with parts of few vertices and faces
 of very unequal size. While `denoise` was made, failures on those "seen" were mended, and some
-constants chosen beside those of the tuned ones; for the others nothing was.
+constants chosen beside those of the tuned ones (one also beside parts of robots that are not told
+here: up to which level noise is doubted); for the others nothing was.
 """
 OF_LITTLE = """
 Scans have less noise than what papers show, and many files have none. "Clean" is how far the

@@ -16,8 +16,9 @@ from beltrami.diffusion.colour import (
     with_colour,
 )
 from beltrami.diffusion.denoise import denoise
-from beltrami.diffusion.linear_filters import LINEAR, Linear, low_passed
+from beltrami.diffusion.linear_filters import LINEAR, Linear, equal_rows, low_passed
 from beltrami.diffusion.noise import noise_level
+from beltrami.diffusion.seen import Seen
 from beltrami.mesh import shapes
 from beltrami.mesh.mesh import Mesh
 from made_once import creature
@@ -341,3 +342,30 @@ class TestDenoise:
         assert before.sigma < 0.75 * rms(mesh, TORUS)
         assert after.sigma == after.spread == pytest.approx(rms(mesh, TORUS), rel=0.15)
         assert len(after.warnings) == len(before.warnings) + 1
+
+    def test_a_look_tells_its_colour_and_the_normals(self):
+        truth = TORUS
+        mesh = moved(truth, averaged(truth, 0.3, own=1 / 7))
+        seen = Seen.of(mesh, None, 40_000, linear=False)
+        first = with_colour(seen.measured, colour_of(mesh), equal_rows(mesh))
+        assert seen.looks == 0
+        assert seen.colour.uneven == (1.0,) * 5
+        level = rms(mesh, truth)
+        assert abs(seen.found.sigma / level - 1) < abs(first.sigma / level - 1)
+
+        def off(normals):
+            return 1 - np.einsum("ij,ij->i", normals, truth.vertex_normals).mean()
+
+        assert off(seen.normals) < 0.5 * off(Bench.of(mesh).normals)
+
+    def test_a_level_that_is_said_is_looked_with(self):
+        mesh = moved(BLOB, averaged(BLOB, 0.3, own=1 / 7))
+        edge = mesh.edge_lengths.mean()
+        little, much = (Seen.of(mesh, s * edge, 40_000, linear=False) for s in (0.01, 0.3))
+        own = mesh.vertex_normals
+
+        def turned(normals):
+            return 1 - np.einsum("ij,ij->i", normals, own).mean()
+
+        assert turned(little.normals) < 0.1 * turned(much.normals)
+        assert np.array_equal(denoise(mesh, noise=0).mesh.vertices, mesh.vertices)

@@ -202,3 +202,19 @@ class TestLongEdges:
         everywhere = rough_part(mesh, sheet)
         assert everywhere.spread > 40 * everywhere.level  # as spikes everywhere, if all count
         assert are_of_shape(mesh, sheet.vertex_normals, sheet) == (among == "long")
+
+
+class TestBounds:
+    def test_crests_with_noise_are_not_said(self):
+        """More than a twentieth of their outliers is left beside a first result."""
+        assert not denoise(white(creature(1600), 0.1, seed=1)).warnings
+
+    def test_spikes_on_a_shape_that_bends_unlike_noise_are_found(self):
+        """A clean cube does, and half of what they leave goes with the creases."""
+        cube = SHARP["fine cube"]
+        random = np.random.default_rng(1)
+        hit = random.random(cube.n_vertices) < 0.01
+        mesh = moved(cube, hit * random.choice([-1, 1], cube.n_vertices))
+        found = denoise(mesh)
+        assert set(found.spikes.tolist()) >= set(np.flatnonzero(hit).tolist())
+        assert rms(found.mesh, cube) < 0.1 * rms(mesh, cube)
