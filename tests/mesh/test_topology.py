@@ -483,11 +483,3 @@ def test_a_face_that_names_a_vertex_twice_changes_no_number():
 def test_the_number_of_vertices_is_a_whole_number(wrong):
     with pytest.raises(MeshError, match="the number of vertices"):
         Topology(TETRAHEDRON, wrong)
-
-
-def test_inner_sides_are_one_of_each_edge_of_two_faces():
-    """Not of the boundary, nor of an edge of three faces."""
-    fan = Topology([[0, 1, 2], [0, 1, 3], [1, 0, 4], [2, 1, 5]])
-    assert fan.face_edges.ravel()[fan.inner_sides].tolist() == [fan.edges.tolist().index([1, 2])]
-    closed = Topology(TETRAHEDRON)
-    assert np.sort(closed.face_edges.ravel()[closed.inner_sides]).tolist() == list(range(6))

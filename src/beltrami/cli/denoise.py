@@ -97,11 +97,11 @@ def _bend(mesh: Mesh) -> float:
     """Return the mean angle between the normals of faces that share an edge, in degrees."""
     import numpy as np
 
-    twins, sides = mesh.topology.twins.ravel(), mesh.topology.inner_sides
-    if not len(sides):
+    f, g = mesh.topology.face_pairs.faces.T
+    if not len(f):
         return 0.0
     normals = mesh.face_normals
-    cosines = np.einsum("ij,ij->i", normals[sides // 3], normals[twins[sides] // 3])
+    cosines = np.einsum("ij,ij->i", normals[f], normals[g])
     return float(np.degrees(np.arccos(np.clip(cosines, -1, 1))).mean())
 
 

@@ -45,13 +45,11 @@ class Bends:
         >>> Bends.of(icosphere(1)).convex
         1.0
         """
-        side = mesh.topology.inner_sides
-        other = mesh.topology.twins.ravel()[side].astype(np.int64)
-        corners, (f, g) = mesh.faces.ravel(), (side // 3, other // 3)
+        side, other, agree = mesh.topology.face_pairs
+        corners, (f, g) = mesh.faces.ravel(), mesh.topology.face_pairs.faces.T
         start, end = (mesh.faces[f, (side + more) % 3] for more in (1, 2))
         x, normals = mesh.vertices, mesh.face_normals
         edge, diagonal = x[end] - x[start], x[corners[other]] - x[corners[side]]
-        agree = mesh.faces[g, (other + 1) % 3] != start
         beside = np.where(agree, 1.0, -1.0)[:, None] * normals[g]
         # seen along the edge, the other normal is turned to the left where it is convex
         turn = np.einsum("ij,ij->i", np.cross(normals[f], beside), edge)

@@ -17,6 +17,7 @@ from beltrami.mesh.connectivity import (
     faces_joined_by_edges,
     parity_colouring,
 )
+from beltrami.mesh.face_pairs import FacePairs, pair_faces
 from beltrami.mesh.faces import checked_faces
 from beltrami.mesh.fans import Fans, group_corners
 from beltrami.mesh.half_edges import BOUNDARY, NOT_MANIFOLD, HalfEdges, pair_sides
@@ -99,11 +100,10 @@ class Topology(Frozen):
         """(m, 3) int: the half-edge 3 f + c across each side; -1 boundary, -2 not manifold."""
         return self.half_edges.twins
 
-    @property
-    def inner_sides(self) -> Integers:
-        """(q,) int: of each edge of two faces, the half-edge 3 f + c whose twin is the larger."""
-        twins = self.twins.ravel()
-        return np.flatnonzero(twins > np.arange(len(twins)))
+    @cached_property
+    def face_pairs(self) -> FacePairs:
+        """The pairs of faces that share an edge which no third face has."""
+        return pair_faces(self.faces, self.twins)
 
     @cached_property
     def edge_face_count(self) -> Integers:
@@ -218,8 +218,8 @@ class Topology(Frozen):
 
         The first face of each component is kept as it is.
         """
-        pairs, differ = self._face_pairs
-        turned = parity_colouring(pairs, differ, self.n_faces)
+        pairs = self.face_pairs
+        turned = parity_colouring(pairs.faces, ~pairs.agree, self.n_faces)
         return None if turned is None else read_only(turned)
 
     @property
@@ -232,17 +232,8 @@ class Topology(Frozen):
         """(q, 2) int: the edges that their two faces run through in the same direction."""
         if self.is_oriented:
             return read_only(np.zeros((0, 2), np.int64))
-        side = self.inner_sides
-        return read_only(self.edges[self.face_edges.ravel()[side][self._face_pairs[1]]])
-
-    @cached_property
-    def _face_pairs(self) -> tuple[Integers, Booleans]:
-        """Pairs of faces that share a side, and whether they disagree on its direction."""
-        side = self.inner_sides
-        other = self.twins.ravel()[side].astype(np.int64)
-        start = self.faces[side // 3, (side + 1) % 3]
-        same = self.faces[other // 3, (other + 1) % 3] == start
-        return np.stack([side // 3, other // 3], axis=1), same
+        wrong = self.face_pairs.side[~self.face_pairs.agree]
+        return read_only(self.edges[self.face_edges.ravel()[wrong]])
 
     # ---------------------------------------------------------------- global shape
 

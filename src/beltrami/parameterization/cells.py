@@ -41,8 +41,7 @@ class Neighbours:
     @classmethod
     def of(cls, mesh: Mesh) -> Neighbours:
         """Collect the inner edges, each once."""
-        twins, half = mesh.topology.twins.ravel(), mesh.topology.inner_sides
-        pairs = np.stack([half // 3, twins[half] // 3], axis=1).astype(np.int64)
+        half, pairs = mesh.topology.face_pairs.side, mesh.topology.face_pairs.faces
         corners = np.stack([(half + 1) % 3, (half + 2) % 3], axis=1)
         ends = mesh.vertices[mesh.faces[half[:, None] // 3, corners]]
         middle = ends.mean(axis=1)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from beltrami._arrays import Booleans, Floats, Integers
+from beltrami.mesh.face_pairs import pair_faces
 from beltrami.mesh.half_edges import pair_sides
 
 
@@ -36,10 +37,8 @@ def flip_edges(vertices: Floats, faces: Integers, fixed: Booleans, passes: int =
 def _flip_once(vertices: Floats, faces: Integers, fixed: Booleans) -> int:
     n = len(vertices)
     sides = pair_sides(faces, n)
-    twins = sides.twins.ravel().astype(np.int64)
-    h = np.flatnonzero(twins > np.arange(len(twins)))
-    g = twins[h]
-    f, e = h // 3, g // 3
+    h, g, _ = pairs = pair_faces(faces, sides.twins)
+    f, e = pairs.faces.T
     top, left, right = (faces[f, (h + s) % 3] for s in (0, 1, 2))  # the edge runs left to right
     bottom = faces[e, g % 3]
     excess = _angle(vertices, top, left, right) + _angle(vertices, bottom, right, left) - np.pi
