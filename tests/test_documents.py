@@ -93,6 +93,16 @@ def test_no_document_holds_two_versions_of_its_text(path):
     assert not re.search(r"^(<{7} |={7}$|>{7} )", path.read_text(encoding="utf-8"), re.MULTILINE)
 
 
+@pytest.mark.parametrize(
+    "path", [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")], ids=lambda path: path.stem
+)
+def test_what_the_documents_name_of_a_class_it_has(path):
+    for name, of_it in re.findall(r"`(?:bt\.)?([A-Z]\w+)\.(\w+)", path.read_text(encoding="utf-8")):
+        found = getattr(bt, name, None)
+        fields = getattr(found, "__annotations__", {})
+        assert found is None or hasattr(found, of_it) or of_it in fields, f"{name}.{of_it}"
+
+
 @pytest.mark.parametrize("name", ["ARCHITECTURE", "CONTRIBUTING", "README", "benchmarks/README"])
 def test_what_the_documents_name_is_there(name):
     text = (ROOT / f"{name}.md").read_text(encoding="utf-8")

@@ -11,6 +11,7 @@ from beltrami.diffusion.linear_filters import equal_rows
 from beltrami.diffusion.noise import STRONG
 from beltrami.mesh import shapes
 from beltrami.mesh.mesh import Mesh
+from dictionary_of_sides import sides_of
 from made_once import creature
 
 BALL = shapes.icosphere(4)
@@ -33,12 +34,9 @@ def bumpy(mesh, height, seed=0):
 
 def pairs(mesh):
     """The corners of each pair of faces that share an edge: its ends, and the other two."""
-    of_edge = {}
-    for face in mesh.faces.tolist():
-        for c in range(3):
-            ends = face[(c + 1) % 3], face[(c + 2) % 3]
-            of_edge.setdefault(frozenset(ends), []).append((*ends, face[c]))
-    return [(*two[0], two[1][2]) for two in of_edge.values() if len(two) == 2]
+    corner, sides = mesh.faces.ravel().tolist(), sides_of(mesh.faces).values()
+    two = [both for both in sides if len(both) == 2]
+    return [(i, j, corner[h], corner[g]) for (h, i, j), (g, *_) in two]
 
 
 def angles(x, quads):

@@ -6,28 +6,17 @@ from beltrami.mesh.face_pairs import pair_faces
 from beltrami.mesh.half_edges import pair_sides
 from beltrami.mesh.shapes import icosphere
 from beltrami.mesh.topology import Topology
+from dictionary_of_sides import sides_of
 from strategies import any_arrays
-
-
-def pairs_by_a_dictionary(faces):
-    """Of each edge of two faces: its half-edges, and whether they run in opposite directions."""
-    around = {}
-    for f, face in enumerate(faces.tolist()):
-        if len(set(face)) == 3:
-            for c in range(3):
-                start, end = face[(c + 1) % 3], face[(c + 2) % 3]
-                around.setdefault(frozenset((start, end)), []).append((3 * f + c, start))
-    two = [sorted(sides) for sides in around.values() if len(sides) == 2]
-    return sorted((h, g, start != other) for (h, start), (g, other) in two)
 
 
 @given(any_arrays())
 def test_pairs_by_a_dictionary(arrays):
     x, faces = arrays
     pairs = pair_faces(faces, pair_sides(faces, len(x)).twins)
-    assert list(zip(*(part.tolist() for part in pairs), strict=True)) == pairs_by_a_dictionary(
-        faces
-    )
+    two = sorted(sides for sides in sides_of(faces).values() if len(sides) == 2)
+    expected = [(h, g, start != other) for (h, start, _), (g, other, _) in two]
+    assert list(zip(*(part.tolist() for part in pairs), strict=True)) == expected
     assert pairs.faces.tolist() == [[h // 3, g // 3] for h, g in zip(*pairs[:2], strict=True)]
 
 

@@ -6,18 +6,8 @@ from beltrami.errors import MeshError
 from beltrami.mesh.half_edges import BOUNDARY, NOT_MANIFOLD, _paired, pair_sides
 from beltrami.mesh.shapes import icosphere
 from beltrami.mesh.topology import Topology
+from dictionary_of_sides import sides_of
 from strategies import any_arrays
-
-
-def sides_of(faces):
-    """Each edge (i < j) with its sides (face, corner opposite, runs upwards), by a dictionary."""
-    found = {}
-    for f, face in enumerate(faces.tolist()):
-        if len(set(face)) == 3:
-            for c in range(3):
-                a, b = face[(c + 1) % 3], face[(c + 2) % 3]
-                found.setdefault((min(a, b), max(a, b)), []).append((f, c, a < b))
-    return dict(sorted(found.items()))
 
 
 def check(faces, n):
@@ -28,14 +18,13 @@ def check(faces, n):
     twins = np.full(faces.shape, BOUNDARY)
     disoriented = 0
     for e, sides in enumerate(expected.values()):
-        for k, (f, c, up) in enumerate(sides):
-            face_edges[f, c] = e
+        for k, (h, start, _) in enumerate(sides):
+            face_edges.flat[h] = e
             if len(sides) == 2:
-                g, d, other = sides[1 - k]
-                twins[f, c] = 3 * g + d
-                disoriented += up == other
+                twins.flat[h], other, _ = sides[1 - k]
+                disoriented += start == other
             elif len(sides) > 2:
-                twins[f, c] = NOT_MANIFOLD
+                twins.flat[h] = NOT_MANIFOLD
     assert pairing.edges.shape == (len(edges), 2)
     assert list(map(tuple, pairing.edges.tolist())) == edges
     assert np.array_equal(pairing.face_edges, face_edges)

@@ -16,6 +16,7 @@ from beltrami.errors import (
 )
 from beltrami.mesh.shapes import cylinder, grid, icosphere, torus
 from beltrami.mesh.topology import Topology
+from dictionary_of_sides import sides_of
 from strategies import any_arrays, closed_meshes, moebius
 
 DERIVED = (
@@ -32,16 +33,6 @@ TETRAHEDRON = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
 def strip(n):
     """A Moebius strip of 2 n faces."""
     return Topology(moebius(np.random.default_rng(9182736455), n)[1])
-
-
-def edges_of(faces):
-    """Each edge with the directions in which its faces run it."""
-    found = {}
-    for face in faces.tolist():
-        if len(set(face)) == 3:
-            for a, b in zip(face, face[1:] + face[:1], strict=True):
-                found.setdefault((min(a, b), max(a, b)), []).append(a < b)
-    return found
 
 
 def classes(nodes, pairs):
@@ -211,22 +202,22 @@ def test_many_threads_get_the_same_answers():
 def test_edges_by_a_dictionary(pair):
     vertices, faces = pair
     topology = Topology(faces, len(vertices))
-    found = edges_of(faces)
+    found = sides_of(faces)
 
     def those(keep):
-        return [list(edge) for edge in sorted(found) if keep(found[edge])]
+        return [list(edge) for edge, sides in found.items() if keep([i for _, i, _ in sides])]
 
-    assert topology.edges.tolist() == those(lambda runs: True)
-    assert topology.boundary_edges.tolist() == those(lambda runs: len(runs) == 1)
-    ends = sorted({v for edge in those(lambda runs: len(runs) == 1) for v in edge})
+    assert topology.edges.tolist() == those(lambda starts: True)
+    assert topology.boundary_edges.tolist() == those(lambda starts: len(starts) == 1)
+    ends = sorted({v for edge in those(lambda starts: len(starts) == 1) for v in edge})
     assert np.flatnonzero(topology.on_boundary).tolist() == ends
-    assert topology.non_manifold_edges.tolist() == those(lambda runs: len(runs) > 2)
-    wrong = those(lambda runs: len(runs) == 2 and runs[0] == runs[1])
+    assert topology.non_manifold_edges.tolist() == those(lambda starts: len(starts) > 2)
+    wrong = those(lambda starts: len(starts) == 2 and starts[0] == starts[1])
     assert sorted(topology.inconsistent_edges.tolist()) == wrong
     assert topology.half_edges.disoriented == len(wrong)
     assert topology.is_oriented == (not wrong)
-    assert topology.is_closed == (bool(found) and all(len(r) > 1 for r in found.values()))
-    assert topology.is_edge_manifold == all(len(runs) < 3 for runs in found.values())
+    assert topology.is_closed == (bool(found) and all(len(sides) > 1 for sides in found.values()))
+    assert topology.is_edge_manifold == all(len(sides) < 3 for sides in found.values())
 
 
 @given(any_arrays())
@@ -287,7 +278,7 @@ def check_components(faces, n):
     nodes = [("f", f) for f in whole]
     at_vertex = [{("f", f) for f in whole if v in faces[f]} for v in range(n)]
     by_vertex = classes(nodes, [pair for pair in at_vertex if pair])
-    found = edges_of(faces)
+    found = sides_of(faces)
     at_edge = [{("f", f) for f in whole if set(e) <= set(faces[f].tolist())} for e in found]
     by_edge = classes(nodes, [group for group in at_edge if group])
     for through, expected in (("vertices", by_vertex), ("edges", by_edge)):
@@ -348,7 +339,7 @@ def test_components_through_something_unknown():
 def test_euler_characteristic_by_counting(pair):
     vertices, faces = pair
     whole = faces[[len(set(face)) == 3 for face in faces.tolist()]]
-    chi = len(set(whole.ravel().tolist())) - len(edges_of(whole)) + len(whole)
+    chi = len(set(whole.ravel().tolist())) - len(sides_of(whole)) + len(whole)
     assert Topology(whole, len(vertices)).euler_characteristic == chi
 
 
@@ -361,7 +352,7 @@ def test_the_genus_of_each_component_is_a_whole_number_and_adds_up(pair):
     total = 0
     for label in set(Topology(whole).components().tolist()):
         part = Topology(whole[Topology(whole).components() == label])
-        chi = len(set(part.faces.ravel().tolist())) - len(edges_of(part.faces)) + part.n_faces
+        chi = len(set(part.faces.ravel().tolist())) - len(sides_of(part.faces)) + part.n_faces
         twice = 2 - len(part.boundary_loops) - chi
         assert twice >= 0
         assert twice % 2 == 0

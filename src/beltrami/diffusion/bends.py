@@ -45,8 +45,8 @@ class Bends:
         >>> Bends.of(icosphere(1)).convex
         1.0
         """
-        side, other, agree = mesh.topology.face_pairs
-        corners, (f, g) = mesh.faces.ravel(), mesh.topology.face_pairs.faces.T
+        side, other, agree = pairs = mesh.topology.face_pairs
+        corners, (f, g) = mesh.faces.ravel(), pairs.faces.T
         start, end = (mesh.faces[f, (side + more) % 3] for more in (1, 2))
         x, normals = mesh.vertices, mesh.face_normals
         edge, diagonal = x[end] - x[start], x[corners[other]] - x[corners[side]]

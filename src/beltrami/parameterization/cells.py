@@ -41,7 +41,8 @@ class Neighbours:
     @classmethod
     def of(cls, mesh: Mesh) -> Neighbours:
         """Collect the inner edges, each once."""
-        half, pairs = mesh.topology.face_pairs.side, mesh.topology.face_pairs.faces
+        half, _, _ = shared = mesh.topology.face_pairs
+        pairs = shared.faces
         corners = np.stack([(half + 1) % 3, (half + 2) % 3], axis=1)
         ends = mesh.vertices[mesh.faces[half[:, None] // 3, corners]]
         middle = ends.mean(axis=1)
