@@ -284,6 +284,20 @@ class TestDenoise:
         found = denoise(truth.with_vertices(truth.vertices + way))
         assert any("outliers" in text for text in found.warnings)
 
+    @pytest.mark.parametrize(
+        ("shape", "method"), [(shapes.torus(60, 40), "linear"), (shapes.icosphere(2), "auto")]
+    )
+    def test_outliers_that_are_not_looked_for_are_no_shape(self, shape, method):
+        """On a smooth shape they bend unlike noise, and are noise all the same."""
+        random, n = np.random.default_rng(1), shape.n_vertices
+        noise = 0.02 * random.standard_normal(n)
+        noise += (random.random(n) < 0.03) * 0.5 * random.choice([-1, 1], n)
+        way = shape.edge_lengths.mean() * noise[:, None] * shape.vertex_normals
+        mesh = shape.with_vertices(shape.vertices + way)
+        found = denoise(mesh, method)
+        assert found.noise.has_outliers
+        assert rms(found.mesh, shape) < 0.4 * rms(mesh, shape)
+
     def test_bumps_alike_are(self):
         square = shapes.grid(50, 50, dimension=3)
         mesh = bumpy(square, 0.3)
