@@ -204,6 +204,28 @@ class TestLongEdges:
         assert are_of_shape(mesh, sheet.vertex_normals, sheet) == (among == "long")
 
 
+class TestFewVertices:
+    """Less than 200, on which nobody looks for spikes."""
+
+    def test_a_clean_crease_is_no_noise(self):
+        ball = shapes.icosphere(2)
+        x, y, z = ball.vertices.T
+        dent = ball.with_vertices(np.column_stack([x, y, np.where(z > 0.2, 0.4 - z, z)]))
+        found = denoise(dent)
+        assert rms(found.mesh, dent) < 0.005 * dent.edge_lengths.mean()
+        assert found.noise.has_outliers
+
+    @pytest.mark.parametrize("seed", [0, 1])
+    def test_spikes_are_said_and_not_spread(self, seed):
+        cube, random = shapes.cube(5), np.random.default_rng(seed)
+        hit = random.random(cube.n_vertices) < 0.05
+        mesh = moved(cube, 0.6 * hit * random.choice([-1, 1], cube.n_vertices))
+        found = denoise(mesh)
+        assert found.noise.has_outliers
+        assert not len(found.spikes)
+        assert rms(found.mesh, cube) <= rms(mesh, cube)
+
+
 class TestBounds:
     def test_crests_with_noise_are_not_said(self):
         """More than a twentieth of their outliers is left beside a first result."""

@@ -107,13 +107,13 @@ def denoise(
     all filters that were chosen look at normals: faces that those made even would be bent. The
     ``predicted_error`` does not count what they gain.
 
-    Sharp features make outliers of the rough part that the level is measured by, as spikes do. On
-    200 vertices or more, outliers are the shape's, and are not said, if more of their square goes
-    beside a first result than is left: it tells on which side of a crease a vertex is
-    (``are_of_shape``). Else spikes are looked for, but not with ``noise`` or ``"linear"``, nor upon
-    noise that is not white (``beltrami.diffusion.spikes``). Their places are filled, from the
-    vertices around and along the normals of the result; the level is that of the others, root mean
-    square.
+    Sharp features make outliers of the rough part that the level is measured by, as spikes do.
+    Outliers are the shape's if more of their square goes beside a first result than is left: it
+    tells on which side of a crease a vertex is (``are_of_shape``). Else spikes are looked for, but
+    not with ``noise`` or ``"linear"``, nor upon noise that is not white, nor on less than 200
+    vertices (``beltrami.diffusion.spikes``); on so few, outliers are always said. The places of
+    spikes are filled, from the vertices around and along the normals of the result; the level is
+    that of the others, root mean square.
 
     Where few vertices make a shape, its details are as even as noise, white or not. They are told
     by how the mesh bends: to one side, or little where edges are long (``unlike_noise``). Then what

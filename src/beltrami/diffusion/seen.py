@@ -129,7 +129,7 @@ class Seen:
         coloured = None if colour is None else seen._coloured(colour)
         if coloured is not None:
             return coloured
-        if found.has_outliers and mesh.n_vertices >= SMALL:
+        if found.has_outliers:
             return replace(seen, found=seen._explained())
         return seen
 
@@ -185,9 +185,13 @@ class Seen:
         return seen._told(sigma), seen._chosen(sigma, normals, filters, known=known)
 
     def _told(self, sigma: float) -> NoiseLevel:
-        """Return what was found; that the noise is strong was too much, if it is not."""
+        """Return what was found; that the noise is strong was too much, if it is not.
+
+        On few vertices, outliers are said even if they are the shape's: nobody looks for spikes.
+        """
         mesh = self.sample.mesh
-        found = self.found.measured_again(sigma, float(mesh.edge_lengths.mean()))
+        found = self.measured if mesh.n_vertices < SMALL else self.found
+        found = found.measured_again(sigma, float(mesh.edge_lengths.mean()))
         return found if sigma > _STRONG_BESIDE * median_height(mesh) else found.without(self.folds)
 
     def _colour_beside(self, colour: NoiseColour, clean: Mesh, low: Choice) -> NoiseColour:
