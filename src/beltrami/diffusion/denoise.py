@@ -113,7 +113,7 @@ def denoise(
     not with ``noise`` or ``"linear"``, nor upon noise that is not white, nor on less than 200
     vertices (``beltrami.diffusion.spikes``); on so few, outliers are always said. The places of
     spikes are filled, from the vertices around and along the normals of the result; the level is
-    that of the others, root mean square.
+    that of the others, root mean square, and their noise may be seen not to be white.
 
     Where few vertices make a shape, its details are as even as noise, white or not. They are told
     by how the mesh bends: to one side, or little where edges are long (``unlike_noise``). Then what

@@ -136,7 +136,7 @@ class Seen:
     def _first_colour(self, edge: float) -> NoiseColour | None:
         """Return the colour of the noise, if it has one."""
         mesh = self.sample.mesh
-        if min(self.largest, mesh.n_vertices) < _ENOUGH or self.spikes is not None:
+        if min(self.largest, mesh.n_vertices) < _ENOUGH:
             return None
         found = noise_colour(equal_rows(mesh), mesh.vertices, self.normals, self.sample.core)
         return found if found.is_coloured(edge) else None
